@@ -1,0 +1,14 @@
+//! Files, safely: whole or not at all, never outside their folder, text made clean as it is read, and one kind of
+//! error that says what is wrong, where, and what to do.
+//!
+//! It knows nothing of what the files mean.
+
+mod fault;
+mod paths;
+mod read;
+mod write;
+
+pub use fault::{Fault, Result};
+pub use paths::{inside, plain_name};
+pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_text};
+pub use write::{Lock, write_whole};

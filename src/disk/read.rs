@@ -1,0 +1,95 @@
+//! Text as it comes in: bounded, UTF-8, NFC, without control characters.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use unicode_normalization::UnicodeNormalization;
+
+use super::{Fault, Result};
+
+/// The largest text file that is read. A lesson of an hour, phones included, is below 2 MB.
+pub const MAX_TEXT_BYTES: u64 = 64 << 20;
+
+/// The bytes of a file of at most `limit` bytes; the length in its header is not believed.
+///
+/// # Errors
+/// When it cannot be read or is longer than `limit`.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    let file = File::open(path).map_err(|e| Fault::io("cannot open it", path, e))?;
+    let mut bytes = Vec::new();
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| Fault::io("cannot read it", path, e))?;
+    if bytes.len() as u64 > limit {
+        return Err(Fault::new(format!("the file is larger than {} MB", limit >> 20))
+            .at(path)
+            .help("files of this kind are far smaller; is it the right one?"));
+    }
+    Ok(bytes)
+}
+
+/// The text of a UTF-8 file, with or without a byte order mark, made [`clean`].
+///
+/// # Errors
+/// When it cannot be read, is too large, or is not UTF-8 (with the line where that begins).
+pub fn read_text(path: &Path) -> Result<String> {
+    let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(clean(text)),
+        Err(error) => {
+            let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
+            Err(Fault::new("the file is not UTF-8 text").at(path).line(line).help("save it as UTF-8 and try again"))
+        }
+    }
+}
+
+/// NFC, `\r\n` and `\r` as `\n`, and no control or invisible formatting character but newline and tab: what is
+/// read is safe to print on a terminal.
+#[must_use]
+pub fn clean(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut previous_cr = false;
+    for c in text.nfc() {
+        match c {
+            '\r' => out.push('\n'),
+            '\n' if previous_cr => {}
+            '\n' | '\t' => out.push(c),
+            c if c.is_control() || is_formatting(c) => {}
+            c => out.push(c),
+        }
+        previous_cr = c == '\r';
+    }
+    out
+}
+
+/// One line of at most `limit` characters: for names and titles.
+#[must_use]
+pub fn clean_line(text: &str, limit: usize) -> String {
+    let text = clean(text);
+    text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(limit).collect()
+}
+
+/// Marks that reorder or hide text: byte order mark, zero widths, directional overrides and isolates.
+fn is_formatting(c: char) -> bool {
+    matches!(c, '\u{FEFF}' | '\u{200B}'..='\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2060}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escapes_and_hidden_marks_do_not_survive_and_lines_do() {
+        assert_eq!(clean("a\x1b[31mb\r\nc\rd\u{202E}e\u{0}"), "a[31mb\nc\nde");
+        assert_eq!(clean("ni\u{0301}n"), "ní\u{6e}");
+    }
+
+    #[test]
+    fn text_that_is_not_utf8_names_the_line() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("big5.txt");
+        std::fs::write(&path, b"one\ntwo\n\xB1\x7A").unwrap();
+        let fault = read_text(&path).unwrap_err();
+        assert_eq!(fault.line_number(), Some(3));
+    }
+}

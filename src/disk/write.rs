@@ -1,0 +1,106 @@
+//! Saving: a file is there whole or not at all. And the lock that keeps two studios off one lesson.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::Write;
+use std::path::Path;
+
+use super::{Fault, Result};
+
+/// Puts `bytes` at `path`, making its folder where it is missing: a temporary file beside it, flush, fsync, rename,
+/// fsync of the folder. A reader sees the old file or the new one, and a crash leaves one of the two.
+///
+/// # Errors
+/// When any of these steps fails; the old file is then untouched.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+    let saved = (|| {
+        let mut file = temporary_in(folder)?;
+        file.write_all(bytes)?;
+        file.flush()?;
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|e| e.error)?;
+        sync_folder(folder)
+    })();
+    saved.map_err(|e| Fault::io("cannot save it", path, e).help("is there room, and may you write there?"))
+}
+
+/// A temporary file with the rights that an ordinary program's file would get: the private ones that temporary
+/// files have by default would make a lesson unreadable to the next teacher.
+fn temporary_in(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".lianpu-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> std::io::Result<()> {
+    File::open(folder)?.sync_all()
+}
+
+#[cfg(not(unix))]
+fn sync_folder(_folder: &Path) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// Held while a lesson is open for writing; let go when dropped or when the program ends, however it ends.
+#[derive(Debug)]
+pub struct Lock {
+    _file: File,
+}
+
+impl Lock {
+    /// Takes the lock at `path`, or `None` where another program holds it.
+    ///
+    /// # Errors
+    /// When the lock's file cannot be made.
+    pub fn take(path: &Path) -> Result<Option<Self>> {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+        }
+        let file = OpenOptions::new()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(path)
+            .map_err(|e| Fault::io("cannot make the lock", path, e))?;
+        match file.try_lock() {
+            Ok(()) => Ok(Some(Self { _file: file })),
+            Err(TryLockError::WouldBlock) => Ok(None),
+            Err(TryLockError::Error(e)) => Err(Fault::io("cannot take the lock", path, e)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_saved_file_replaces_the_old_one_and_leaves_nothing_beside_it() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("deep/er/score.toml");
+        write_whole(&path, b"one").unwrap();
+        write_whole(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_second_lock_is_refused_until_the_first_is_let_go() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("lock");
+        let first = Lock::take(&path).unwrap().unwrap();
+        assert!(Lock::take(&path).unwrap().is_none());
+        drop(first);
+        assert!(Lock::take(&path).unwrap().is_some());
+    }
+}

@@ -1,0 +1,10 @@
+//! Lianpu makes a face talk.
+//!
+//! A **script** becomes syllables and mouth shapes, a **recording** gives them times, ratios of seven emotions come
+//! from a record or from an author; all of it lies on a [`timeline`], the score. A [`pose`] is the score read at one
+//! instant, a figure turns a pose into a drawing, and a drawing is rendered and exported. The studio and the command
+//! line are two thin faces on the same rooms. A room uses only the rooms before it in this list.
+
+pub mod cli;
+pub mod disk;
+pub mod pose;
