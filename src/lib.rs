@@ -5,6 +5,10 @@
 //! instant, a figure turns a pose into a drawing, and a drawing is rendered and exported. The studio and the command
 //! line are two thin faces on the same rooms. A room uses only the rooms before it in this list.
 
-pub mod cli;
-pub mod disk;
+pub mod geometry;
 pub mod pose;
+pub mod drawing;
+pub mod disk;
+pub mod figure;
+pub mod render;
+pub mod cli;

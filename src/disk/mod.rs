@@ -6,9 +6,11 @@
 mod fault;
 mod paths;
 mod read;
+mod toml;
 mod write;
 
 pub use fault::{Fault, Result};
 pub use paths::{inside, plain_name};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_text};
+pub use toml::{from_toml, nearest};
 pub use write::{Lock, write_whole};

@@ -1,0 +1,84 @@
+//! TOML with faults that name the line, and for an unknown key the nearest known one.
+
+use serde::de::DeserializeOwned;
+
+use super::{Fault, Result};
+
+/// Reads a TOML text into a type that refuses unknown keys.
+///
+/// # Errors
+/// With the line, what was found and what is allowed.
+pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T> {
+    toml::from_str(text).map_err(|error| {
+        let line = error.span().map(|s| 1 + text[..s.start.min(text.len())].matches('\n').count());
+        let message = error.message().trim();
+        let fault = match unknown_key(message) {
+            Some((key, known)) => {
+                let near = nearest(key, &known);
+                let help = match near {
+                    Some(near) => format!("did you mean `{near}`? known here: {}", known.join(", ")),
+                    None => format!("known here: {}", known.join(", ")),
+                };
+                Fault::new(format!("unknown key `{key}`")).help(help)
+            }
+            None => Fault::new(message.lines().collect::<Vec<_>>().join("; ")),
+        };
+        match line {
+            Some(line) => fault.line(line),
+            None => fault,
+        }
+    })
+}
+
+/// Takes serde's "unknown field `x`, expected one of `a`, `b`" apart.
+fn unknown_key(message: &str) -> Option<(&str, Vec<&str>)> {
+    let rest = message.strip_prefix("unknown field `")?;
+    let (key, rest) = rest.split_once('`')?;
+    let known = rest.split('`').skip(1).step_by(2).collect();
+    Some((key, known))
+}
+
+/// The known word that is fewest edits from `word`, where that is few enough to be meant.
+#[must_use]
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let (distance, near) = known.iter().map(|k| (edits(word, k), *k)).min()?;
+    (distance <= 1 + word.chars().count() / 3).then_some(near)
+}
+
+/// Levenshtein's distance: insertions, deletions and replacements.
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Output {
+        fps: u32,
+        size: [u32; 2],
+    }
+
+    #[test]
+    fn an_unknown_key_names_its_line_and_the_nearest_known_one() {
+        let fault = from_toml::<Output>("# frames\nfsp = 25\nsize = [1, 2]\n").unwrap_err();
+        assert_eq!(fault.what(), "unknown key `fsp`");
+        assert_eq!(fault.line_number(), Some(2));
+        assert!(fault.next_step().contains("did you mean `fps`"), "{fault}");
+    }
+}

@@ -1,0 +1,92 @@
+//! A pose becomes the drawing of a line figure.
+
+use super::file::INHERIT;
+use super::{Backdrop, LineFigure, eye};
+use crate::drawing::{Colour, Drawing, Item, Layer};
+use crate::geometry::{BezPath, Knot, PathEl};
+use crate::pose::{Head, Pose};
+
+impl LineFigure {
+    /// The drawing of a pose: what stays the same on the layer `static`, what moves on `dynamic` (thesis 7.3.1).
+    #[must_use]
+    pub fn draw(&self, pose: &Pose) -> Drawing {
+        let knots = self.points(pose);
+        let mut moving = Vec::new();
+        for eye in &self.eyes {
+            moving.extend(eye.draw(self, &knots, pose));
+        }
+        moving.extend(self.mouth.draw(self, &knots, &pose.mouth));
+        for (i, line) in self.lines.iter().enumerate() {
+            if !self.is_of_eye_or_mouth(i) {
+                moving.push(Item::ink(&line.name, vec![self.ribbon(i, &knots)], self.colours.ink));
+            }
+        }
+        let (mut still, mut head): (Vec<Item>, Vec<Item>) = (Vec::new(), Vec::new());
+        let turned = pose.head != Head::default();
+        for part in &self.behind {
+            let list = if turned && part.head { &mut head } else { &mut still };
+            list.extend(part.items(self.colours.ink));
+        }
+        for part in &self.before {
+            moving.extend(part.items(self.colours.ink));
+        }
+        if turned {
+            head.append(&mut moving);
+            moving = vec![Item::moved("head", eye::head_transform(self, pose), head)];
+        }
+        Drawing {
+            view: self.view,
+            title: self.title.clone(),
+            description: describe(pose),
+            background: Some(Colour::WHITE),
+            layers: vec![
+                Layer { name: "static".into(), items: still },
+                Layer { name: "dynamic".into(), items: moving },
+            ],
+        }
+    }
+
+    /// The figure's points in a pose: the emotions blended, the lids closed as far as they are, the mouth speaking.
+    #[must_use]
+    pub fn points(&self, pose: &Pose) -> Vec<Knot> {
+        let mut knots = self.blend(&pose.ratios);
+        for eye in &self.eyes {
+            eye.close(&mut knots, pose);
+        }
+        self.mouth.speak(&mut knots, &self.drawings[0], &pose.mouth, &self.lines);
+        knots
+    }
+}
+
+impl Backdrop {
+    fn items(&self, ink: Colour) -> Vec<Item> {
+        let mut items = Vec::new();
+        if let Some(fill) = self.fill {
+            let mut path = BezPath::new();
+            for (i, stroke) in self.strokes.iter().enumerate() {
+                let c = stroke.centre();
+                if i == 0 {
+                    path.push(PathEl::MoveTo(c.p0));
+                }
+                path.push(PathEl::CurveTo(c.p1, c.p2, c.p3));
+            }
+            path.close_path();
+            items.push(Item::area(format!("{}-fill", self.name), path, fill));
+        }
+        if let Some(own) = self.ink {
+            let colour = if own == INHERIT { ink } else { own };
+            items.push(Item::ink(&self.name, self.strokes.clone(), colour));
+        }
+        items
+    }
+}
+
+/// What a pose shows, in a sentence.
+fn describe(pose: &Pose) -> String {
+    let (emotion, ratio) = pose.ratios.strongest();
+    let mood = if ratio >= 0.2 { format!("{emotion} {ratio:.2}") } else { "neutral".to_owned() };
+    match pose.shape {
+        Some(shape) => format!("A face: {mood}, mouth {shape}."),
+        None => format!("A face: {mood}."),
+    }
+}

@@ -1,0 +1,242 @@
+//! A line figure as a file: what an author writes to make her own.
+//!
+//! ```toml
+//! format = 1
+//! title = "A line face"
+//! view = [0, 40, 498, 560]        # x, y, width, height of what is shown
+//! pen = 2.0                       # pixels per unit of width
+//! pivot = [249, 560]              # what the head turns about
+//! lines = [ { name = "rbow", points = [0, 1, 2, 3] } ]
+//! [drawings]                      # x, y, width of every point, for each of the seven
+//! neutral = [[365, 270, 1]]
+//! [[behind]]                      # the same in all seven, back to front; `before` is drawn over the lines
+//! name = "face"
+//! knots = [[249, 92, 1], [342, 92, 2], [414, 168, 2], [416, 276, 2]]   # 4, 7, 10 … points of a chain of cubics
+//! fill = "#ffffff"
+//! [[eye]]
+//! upper = "leyeulid"
+//! lower = "leyeblid"
+//! iris = 14
+//! [mouth]
+//! nose = [249, 404]               # the base of the nose, from which MNS0 is measured
+//! upper = ["lmu", "rmulink", "rmu"]
+//! lower = ["lmb", "rmblink", "rmb"]
+//! pairs = [[32, 43]]              # upper and lower points that meet when the lips do
+//! ```
+
+use serde::Deserialize;
+
+use super::eye::Eye;
+use super::mouth::Mouth;
+use super::{Backdrop, Colours, Line, LineFigure};
+use crate::disk::{Fault, Result, from_toml, nearest};
+use crate::drawing::Colour;
+use crate::geometry::{Knot, Point, Rect, Ribbon};
+use crate::pose::Emotion;
+
+/// The version of the format that is read.
+pub const FIGURE_FORMAT: u32 = 1;
+
+/// Coordinates beyond this are a slip of the hand.
+const FARTHEST: f64 = 100_000.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    format: u32,
+    title: String,
+    view: [f64; 4],
+    #[serde(default = "two")]
+    pen: f64,
+    pivot: Option<[f64; 2]>,
+    #[serde(default)]
+    colours: Colours,
+    lines: Vec<FileLine>,
+    drawings: Drawings,
+    #[serde(default)]
+    behind: Vec<FileBackdrop>,
+    #[serde(default)]
+    before: Vec<FileBackdrop>,
+    #[serde(default, rename = "eye")]
+    eyes: Vec<FileEye>,
+    mouth: FileMouth,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileLine {
+    name: String,
+    points: [usize; 4],
+}
+
+type Triples = Vec<[f64; 3]>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Drawings {
+    neutral: Triples,
+    happy: Triples,
+    anger: Triples,
+    disgust: Triples,
+    sadness: Triples,
+    fear: Triples,
+    surprised: Triples,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileBackdrop {
+    name: String,
+    knots: Triples,
+    fill: Option<Colour>,
+    ink: Option<Colour>,
+    #[serde(default)]
+    no_ink: bool,
+    #[serde(default = "yes")]
+    head: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileEye {
+    upper: String,
+    lower: String,
+    iris: f64,
+    #[serde(default)]
+    slit: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileMouth {
+    nose: [f64; 2],
+    upper: Vec<String>,
+    lower: Vec<String>,
+    #[serde(default)]
+    pairs: Vec<[usize; 2]>,
+}
+
+impl LineFigure {
+    /// Reads a figure from the text of its file.
+    ///
+    /// # Errors
+    /// When it is no such file, or names lines and points that are not there.
+    pub fn parse(text: &str) -> Result<Self> {
+        let file: File = from_toml(text)?;
+        if file.format != FIGURE_FORMAT {
+            return Err(Fault::new(format!("`format` is {}", file.format))
+                .help(format!("this program reads figures of format {FIGURE_FORMAT}")));
+        }
+        let d = file.drawings;
+        let lists = [d.neutral, d.happy, d.anger, d.disgust, d.sadness, d.fear, d.surprised];
+        let count = lists[0].len();
+        let mut drawings: [Vec<Knot>; 7] = Default::default();
+        for ((list, emotion), drawing) in lists.into_iter().zip(Emotion::ALL).zip(&mut drawings) {
+            if list.len() != count {
+                return Err(Fault::new(format!(
+                    "the drawing `{emotion}` has {} points, `neutral` has {count}",
+                    list.len()
+                ))
+                .help("the seven drawings need the same points"));
+            }
+            *drawing = knots(&list, emotion.name())?;
+        }
+        let lines: Vec<Line> = file.lines.into_iter().map(|l| Line { name: l.name, points: l.points }).collect();
+        for line in &lines {
+            if let Some(point) = line.points.iter().find(|p| **p >= count) {
+                return Err(Fault::new(format!("the line `{}` has a point {point}", line.name))
+                    .help(format!("points are numbered 0 to {}", count.saturating_sub(1))));
+            }
+        }
+        let view = Rect::new(file.view[0], file.view[1], file.view[0] + file.view[2], file.view[1] + file.view[3]);
+        let shown = file.view.iter().all(|v| v.is_finite() && v.abs() <= FARTHEST);
+        if !(shown && view.width() > 0.0 && view.height() > 0.0 && file.pen > 0.0 && file.pen <= 100.0) {
+            return Err(Fault::new("`view` or `pen` shows nothing")
+                .help("give x, y, width and height, and a pen above 0 and at most 100"));
+        }
+        let names = Self::index_of_lines(&lines);
+        let line = |name: &String| {
+            names.get(name).copied().ok_or_else(|| {
+                let known: Vec<&str> = lines.iter().map(|l| l.name.as_str()).collect();
+                let near = nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
+                Fault::new(format!("there is no line `{name}`")).help(format!("{near}lines: {}", known.join(", ")))
+            })
+        };
+        let mut eyes = Vec::new();
+        for eye in &file.eyes {
+            eyes.push(Eye::new((line(&eye.upper)?, line(&eye.lower)?), eye.iris, eye.slit, &drawings[0], &lines)?);
+        }
+        let m = &file.mouth;
+        let upper = m.upper.iter().map(line).collect::<Result<Vec<_>>>()?;
+        let lower = m.lower.iter().map(line).collect::<Result<Vec<_>>>()?;
+        if let Some(pair) = m.pairs.iter().find(|p| p.iter().any(|i| *i >= count)) {
+            return Err(Fault::new(format!("`pairs` names the points {pair:?}"))
+                .help(format!("points are numbered 0 to {}", count.saturating_sub(1))));
+        }
+        let mouth = Mouth::new(upper, lower, m.pairs.clone(), Point::new(m.nose[0], m.nose[1]), &drawings[0], &lines)?;
+        for eye in &mut eyes {
+            eye.mark_side(mouth.middle());
+        }
+        let pivot = file.pivot.map_or(Point::new(view.center().x, view.y1), |p| Point::new(p[0], p[1]));
+        Ok(Self {
+            title: crate::disk::clean_line(&file.title, 200),
+            view,
+            pen: file.pen,
+            colours: file.colours,
+            behind: backdrops(file.behind, file.pen)?,
+            before: backdrops(file.before, file.pen)?,
+            lines,
+            drawings,
+            eyes,
+            mouth,
+            pivot,
+        })
+    }
+}
+
+fn knots(list: &Triples, of: &str) -> Result<Vec<Knot>> {
+    list.iter()
+        .enumerate()
+        .map(|(i, [x, y, w])| {
+            let fine = [x, y, w].iter().all(|v| v.is_finite() && v.abs() <= FARTHEST) && *w >= 0.0;
+            fine.then_some(Knot::new(*x, *y, *w)).ok_or_else(|| {
+                Fault::new(format!("point {i} of `{of}` is [{x}, {y}, {w}]"))
+                    .help(format!("give numbers up to {FARTHEST}, the width not below 0"))
+            })
+        })
+        .collect()
+}
+
+fn backdrops(list: Vec<FileBackdrop>, pen: f64) -> Result<Vec<Backdrop>> {
+    let read = |part: FileBackdrop| {
+        let mut knots = knots(&part.knots, &part.name)?;
+        if knots.len() < 4 || knots.len() % 3 != 1 {
+            return Err(Fault::new(format!("`{}` has {} knots", part.name, knots.len()))
+                .help("a chain of cubics has 4, 7, 10 … knots"));
+        }
+        for knot in &mut knots {
+            knot.w *= pen;
+        }
+        let strokes = knots.windows(4).step_by(3).map(|k| Ribbon([k[0], k[1], k[2], k[3]])).collect();
+        let ink = if part.no_ink { None } else { Some(part.ink) };
+        Ok(Backdrop {
+            name: part.name,
+            strokes,
+            fill: part.fill,
+            ink: ink.map(|c| c.unwrap_or(INHERIT)),
+            head: part.head,
+        })
+    };
+    list.into_iter().map(read).collect()
+}
+
+/// Stands for the figure's own ink until the figure is drawn; nobody writes an invisible ink of this blue.
+pub(super) const INHERIT: Colour = Colour { r: 1, g: 2, b: 255, a: 0 };

@@ -1,0 +1,307 @@
+//! The mouth of a line figure: the emotion's own, and on top of it what speech does.
+//!
+//! A table of seven drawings has no spoken mouths. They come from a model mouth, two cubics a lip from the middle to
+//! each corner, that any shape can be set to by the moves of its four control points (thesis 5.2.3). What the model
+//! does between *m* and the spoken shape is added to the points of the emotion's mouth.
+
+use super::{Line, LineFigure};
+use crate::disk::{Fault, Result};
+use crate::drawing::Item;
+use crate::geometry::{
+    BezPath, CubicBez, Ellipse, Knot, ParamCurve, ParamCurveDeriv, PathEl, Point, Rect, Ribbon, Shape, Vec2, hermite,
+    lerp,
+};
+use crate::pose::MouthPose;
+
+/// How much of the emotion's own opening stays while a syllable is spoken. All of it, added to an open vowel, would
+/// shout; none would lose a grin.
+const EMOTION_WHILE_SPEAKING: f64 = 0.3;
+
+/// An opening below this share of M is hidden under the ink of the lips.
+const SLIVER: f64 = 0.05;
+
+/// How far *f* lifts the upper lip off the lower one, in M, to show the teeth that stand on it.
+const BITE: f64 = 0.17;
+
+/// The mouth of a figure and its units.
+#[derive(Debug, Clone)]
+pub(super) struct Mouth {
+    /// Lines of each lip from the image's left to its right.
+    upper: Vec<usize>,
+    lower: Vec<usize>,
+    /// Upper and lower points that meet when the lips do.
+    pairs: Vec<[usize; 2]>,
+    /// For every line of the mouth, where its four control points lie on the model.
+    seats: Vec<Seat>,
+    centre: Point,
+    /// MW0 and M of the neutral mouth (thesis 4.4.1; recipe: M = max(MNS0, .33 MW0)).
+    width: f64,
+    unit: f64,
+}
+
+/// A line's place on the model: the model's parameters at its two ends, −1 the left corner, 0 the middle, 1 the right.
+#[derive(Debug, Clone)]
+struct Seat {
+    line: usize,
+    upper: bool,
+    from: f64,
+    to: f64,
+}
+
+/// The model set to one mouth, relative to the middle of the neutral mouth, y down.
+struct Model {
+    /// From the middle to the right corner.
+    upper: CubicBez,
+    lower: CubicBez,
+}
+
+impl Mouth {
+    pub(super) fn new(
+        upper: Vec<usize>,
+        lower: Vec<usize>,
+        pairs: Vec<[usize; 2]>,
+        nose: Point,
+        neutral: &[Knot],
+        lines: &[Line],
+    ) -> Result<Self> {
+        let points = || upper.iter().chain(&lower).flat_map(|l| lines[*l].points).map(|p| neutral[p].point());
+        let left = points().map(|p| p.x).fold(f64::INFINITY, f64::min);
+        let right = points().map(|p| p.x).fold(f64::NEG_INFINITY, f64::max);
+        let lip = upper.iter().flat_map(|l| lines[*l].points).map(|p| neutral[p].y).fold(f64::INFINITY, f64::min);
+        let bottom = points().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
+        let width = right - left;
+        if !(width > 0.0 && width.is_finite() && lip > nose.y) {
+            return Err(Fault::new("the mouth has no width, or lies above its `nose`")
+                .help("give `upper`, `lower` and the base of the nose, which lies above the lips"));
+        }
+        let mut mouth = Self {
+            upper,
+            lower,
+            pairs,
+            seats: Vec::new(),
+            centre: Point::new(f64::midpoint(left, right), f64::midpoint(lip, bottom)),
+            width,
+            unit: (lip - nose.y).max(0.33 * width),
+        };
+        let rest = mouth.model(&MouthPose::REST);
+        for (list, is_upper) in [(&mouth.upper, true), (&mouth.lower, false)] {
+            for line in list {
+                let ends = lines[*line].points;
+                let seat = |p: usize| rest.parameter_at(neutral[p].x - mouth.centre.x);
+                mouth.seats.push(Seat { line: *line, upper: is_upper, from: seat(ends[0]), to: seat(ends[3]) });
+            }
+        }
+        Ok(mouth)
+    }
+
+    /// The model mouth of a pose. The curves are the recipe's: nearly straight where closed, rounder the further it
+    /// opens and the narrower it gets.
+    fn model(&self, mouth: &MouthPose) -> Model {
+        let open = 1.0 - mouth.closure;
+        let upper = (mouth.upper * open - BITE * mouth.bite) * self.unit;
+        let lower = mouth.lower * open * self.unit;
+        let half = self.width * (0.5 - mouth.corner_in);
+        let narrowed = ((2.0 * mouth.corner_in) / 0.34).clamp(0.0, 1.0);
+        let gap = (lower - upper).max(0.0);
+        let mut round = (1.9 * gap / (2.0 * half)).clamp(0.0, 1.0);
+        if gap > SLIVER * self.unit {
+            round = round.max(narrowed);
+        }
+        let corner = Point::new(half, mouth.corner_down * self.unit);
+        let lip = |middle: f64, round: f64| {
+            let rise = middle - corner.y;
+            CubicBez::new(
+                Point::new(0.0, middle),
+                Point::new(lerp(0.42, 0.56, round) * half, middle),
+                corner + Vec2::new(-lerp(0.42, 0.04, round) * half, lerp(0.62, 0.56, round) * rise),
+                corner,
+            )
+        };
+        Model { upper: lip(upper, 0.85 * round), lower: lip(lower, round) }
+    }
+
+    /// Brings speech into blended points: what the emotion opens is closed as far as speech takes the mouth over,
+    /// then the model's move away from *m* is added.
+    pub(super) fn speak(&self, knots: &mut [Knot], neutral: &[Knot], mouth: &MouthPose, lines: &[Line]) {
+        if *mouth == MouthPose::REST {
+            return;
+        }
+        let taken = 1.0 - (1.0 - mouth.closure) * (1.0 - (1.0 - EMOTION_WHILE_SPEAKING) * mouth.speaking);
+        for [a, b] in &self.pairs {
+            let (upper, lower) = (knots[*a], knots[*b]);
+            for (i, knot) in [(*a, upper), (*b, lower)] {
+                knots[i].x = lerp(knot.x, f64::midpoint(upper.x, lower.x), taken);
+                knots[i].y = lerp(knot.y, f64::midpoint(upper.y, lower.y), taken);
+                // Closed lips are one firm line, as neutral ones are; parted ones thin out.
+                knots[i].w = lerp(knot.w, neutral[i].w, taken) * (1.0 - 0.3 * mouth.opening().min(1.0));
+            }
+        }
+        let (rest, spoken) = (self.model(&MouthPose::REST), self.model(mouth));
+        let mut moved = vec![false; knots.len()];
+        for seat in &self.seats {
+            let (before, after) = (rest.piece(seat), spoken.piece(seat));
+            for (i, p) in lines[seat.line].points.into_iter().enumerate() {
+                // Corners belong to both lips and move once.
+                if !std::mem::replace(&mut moved[p], true) {
+                    knots[p].x += after[i].x - before[i].x;
+                    knots[p].y += after[i].y - before[i].y;
+                }
+            }
+        }
+    }
+
+    /// x of the mouth's middle, which is the face's.
+    pub(super) fn middle(&self) -> f64 {
+        self.centre.x
+    }
+
+    pub(super) fn has(&self, line: usize) -> bool {
+        self.seats.iter().any(|s| s.line == line)
+    }
+
+    /// The mouth back to front: inside, tongue, teeth, lips.
+    pub(super) fn draw(&self, figure: &LineFigure, knots: &[Knot], mouth: &MouthPose) -> Vec<Item> {
+        let lip = |list: &[usize]| -> Vec<Ribbon> { list.iter().map(|l| figure.ribbon(*l, knots)).collect() };
+        let (upper, lower) = (lip(&self.upper), lip(&self.lower));
+        let (top, bottom) = (edge(&upper), edge(&lower));
+        let mut items = Vec::new();
+        let middle = |curves: &[CubicBez]| crossing(curves, mid_x(&top));
+        if let (Some(above), Some(below)) = (middle(&top), middle(&bottom)) {
+            let gap = below - above;
+            if gap > SLIVER * self.unit {
+                items.extend(self.inside(figure, &top, &bottom, (above, below), mouth));
+            }
+        }
+        items.push(Item::ink("upper-lip", upper, figure.colours.ink));
+        items.push(Item::ink("lower-lip", lower, figure.colours.ink));
+        items
+    }
+
+    fn inside(
+        &self,
+        figure: &LineFigure,
+        top: &[CubicBez],
+        bottom: &[CubicBez],
+        (above, below): (f64, f64),
+        mouth: &MouthPose,
+    ) -> Option<Item> {
+        let opening = closed_between(top, bottom);
+        let (left, right) = (top.first()?.p0.x, top.last()?.p3.x);
+        let (x, width, gap) = (f64::midpoint(left, right), right - left, below - above);
+        let colours = &figure.colours;
+        let hole = Item::area("mouth-inside", opening.clone(), colours.mouth);
+        // Tongue and teeth by the recipe's part 4; a raised tongue (n) stands higher and closer.
+        let rise = lerp(1.0, 0.72, mouth.tongue);
+        let tongue = Ellipse::new(
+            Point::new(x, above + rise * gap),
+            (0.29 * width, lerp((0.52 * gap).min(0.22 * width), 0.5 * gap, mouth.tongue) * 0.8),
+            0.0,
+        );
+        let mut deep = (0.42 * gap).max(3.2).min(0.105 * self.width);
+        if width < 0.68 * self.width {
+            deep *= 0.55;
+        }
+        let deep = lerp(deep, gap + 2.0, mouth.bite);
+        let band = Rect::new(left, opening.bounding_box().y0 - 2.0, right, above + deep);
+        let mut teeth = BezPath::new();
+        // The band's lower edge is a flat U: the teeth bend away from the viewer toward the corners.
+        teeth.move_to((x - 0.42 * width, band.y0));
+        teeth.line_to((x + 0.42 * width, band.y0));
+        teeth.line_to((x + 0.40 * width, band.y1 - 0.22 * deep));
+        teeth.quad_to((x + 0.36 * width, band.y1), (x + 0.2 * width, band.y1));
+        teeth.line_to((x - 0.2 * width, band.y1));
+        teeth.quad_to((x - 0.36 * width, band.y1), (x - 0.40 * width, band.y1 - 0.22 * deep));
+        teeth.close_path();
+        let inner = vec![
+            hole,
+            Item::area("tongue", tongue.to_path(0.02), colours.tongue),
+            Item::area("teeth", teeth, colours.teeth),
+        ];
+        Some(Item::clipped("mouth-open", opening, inner))
+    }
+}
+
+impl Model {
+    /// The model's parameter where a lip crosses `x`, from −1 at the left corner to 1 at the right one.
+    fn parameter_at(&self, x: f64) -> f64 {
+        let target = x.abs().min(self.upper.p3.x);
+        let (mut low, mut high) = (0.0, 1.0);
+        // x grows along a half lip, so halving finds the place; 40 halvings leave 1e-12.
+        for _ in 0..40 {
+            let t = f64::midpoint(low, high);
+            if self.upper.eval(t).x < target { low = t } else { high = t }
+        }
+        f64::midpoint(low, high).copysign(x)
+    }
+
+    /// Place and derivative on a lip at a parameter from −1 to 1.
+    fn at(&self, upper: bool, s: f64) -> (Point, Vec2) {
+        let curve = if upper { self.upper } else { self.lower };
+        let t = s.abs();
+        let (p, d) = (curve.eval(t), curve.deriv().eval(t).to_vec2());
+        if s < 0.0 { (Point::new(-p.x, p.y), Vec2::new(d.x, -d.y)) } else { (p, d) }
+    }
+
+    /// The four control points of the model's piece between a seat's ends. Exact within a half; across the middle,
+    /// where both halves run level, a cubic of the same ends and directions.
+    fn piece(&self, seat: &Seat) -> [Point; 4] {
+        let ((a, da), (b, db)) = (self.at(seat.upper, seat.from), self.at(seat.upper, seat.to));
+        let span = seat.to - seat.from;
+        let c = hermite(a, da * span, b, db * span);
+        [c.p0, c.p1, c.p2, c.p3]
+    }
+}
+
+/// A lip's centre line from left to right: its outermost two strokes, bridged in the middle where they stop short of
+/// each other. Links between lie under the same ink and add nothing to the edge.
+fn edge(lip: &[Ribbon]) -> Vec<CubicBez> {
+    let onward = |r: &Ribbon| {
+        let c = r.centre();
+        if c.p0.x <= c.p3.x { c } else { CubicBez::new(c.p3, c.p2, c.p1, c.p0) }
+    };
+    let (Some(first), Some(last)) = (lip.first().map(onward), lip.last().map(onward)) else { return Vec::new() };
+    if lip.len() == 1 {
+        return vec![first];
+    }
+    let gap = last.p0 - first.p3;
+    if gap.hypot() < 1e-6 {
+        return vec![first, last];
+    }
+    let along = |v: Vec2| v.normalize() * gap.hypot();
+    let bridge = hermite(first.p3, along(first.p3 - first.p2), last.p0, along(last.p1 - last.p0));
+    vec![first, bridge, last]
+}
+
+fn mid_x(curves: &[CubicBez]) -> f64 {
+    match (curves.first(), curves.last()) {
+        (Some(a), Some(b)) => f64::midpoint(a.p0.x, b.p3.x),
+        _ => 0.0,
+    }
+}
+
+/// The height at which a chain of curves crosses `x`.
+fn crossing(curves: &[CubicBez], x: f64) -> Option<f64> {
+    let curve = curves.iter().find(|c| c.p0.x <= x && x <= c.p3.x)?;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..30 {
+        let t = f64::midpoint(low, high);
+        if curve.eval(t).x < x { low = t } else { high = t }
+    }
+    Some(curve.eval(low).y)
+}
+
+fn closed_between(top: &[CubicBez], bottom: &[CubicBez]) -> BezPath {
+    let mut path = BezPath::new();
+    if let Some(first) = top.first() {
+        path.push(PathEl::MoveTo(first.p0));
+    }
+    for c in top {
+        path.push(PathEl::CurveTo(c.p1, c.p2, c.p3));
+    }
+    for c in bottom.iter().rev() {
+        path.push(PathEl::LineTo(c.p3));
+        path.push(PathEl::CurveTo(c.p2, c.p1, c.p0));
+    }
+    path.close_path();
+    path
+}

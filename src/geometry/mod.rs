@@ -1,0 +1,22 @@
+//! Points, boxes and curves: kurbo's, and the one that it lacks, a cubic whose width varies along it.
+//!
+//! y grows downward, so angles run clockwise as seen. It knows nothing of faces or colours.
+
+mod ribbon;
+
+pub use kurbo::{
+    Affine, BezPath, Circle, CubicBez, Ellipse, ParamCurve, ParamCurveDeriv, PathEl, Point, Rect, Shape, Vec2,
+};
+pub use ribbon::{Knot, Ribbon, outline};
+
+/// The cubic that leaves `a` with derivative `da` and reaches `b` with derivative `db` over a unit of parameter.
+#[must_use]
+pub fn hermite(a: Point, da: Vec2, b: Point, db: Vec2) -> CubicBez {
+    CubicBez::new(a, a + da / 3.0, b - db / 3.0, b)
+}
+
+/// `a` at t = 0, `b` at t = 1.
+#[must_use]
+pub fn lerp(a: f64, b: f64, t: f64) -> f64 {
+    a + (b - a) * t
+}

@@ -1,0 +1,301 @@
+//! A cubic Bézier in (x, y, width), and the clean filled outline of what it draws.
+//!
+//! The width is a third coordinate of the curve, so it runs continuously between the widths given at the control
+//! points and may touch 0 (SOURCES.md 1, "stroke width"). What is drawn is the union of the discs of diameter w(t)
+//! about P(t); its outline is the envelope of those discs. Where the envelope is regular it is fitted with a few
+//! cubics; where the pen is too wide for the curve's bend it folds, and convex hulls of neighbouring discs are
+//! united instead, which holds for any input.
+
+use kurbo::{BezPath, CurveFitSample, ParamCurveFit, PathEl, Point, Vec2, fit_to_bezpath};
+
+/// One control point: a place and the width of the stroke there (paper eq. 4).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Knot {
+    /// To the right.
+    pub x: f64,
+    /// Down.
+    pub y: f64,
+    /// Full width, in the same unit as x and y; below 0 counts as 0.
+    pub w: f64,
+}
+
+impl Knot {
+    /// A control point.
+    #[must_use]
+    pub const fn new(x: f64, y: f64, w: f64) -> Self {
+        Self { x, y, w }
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub const fn point(self) -> Point {
+        Point::new(self.x, self.y)
+    }
+}
+
+/// A cubic stroke of varying width: four control points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ribbon(pub [Knot; 4]);
+
+/// The pen at one parameter.
+#[derive(Clone, Copy)]
+struct Pen {
+    at: Point,
+    tangent: Vec2,
+    radius: f64,
+    /// Change of the radius per unit of arc length.
+    flare: f64,
+}
+
+impl Pen {
+    /// Where the envelope touches the disc on one side (paper-free geometry): the contact points of a family of
+    /// discs lie at r (±√(1 − r'²) n − r' τ) from the centre, r' being the change of r along the curve.
+    fn contact(&self, side: f64) -> Point {
+        let k = self.flare.clamp(-MAX_FLARE, MAX_FLARE);
+        let normal = Vec2::new(-self.tangent.y, self.tangent.x);
+        self.at + self.radius * (side * (1.0 - k * k).sqrt() * normal - k * self.tangent)
+    }
+}
+
+/// Above this change of radius per length, one disc swallows the next and there is no envelope.
+const MAX_FLARE: f64 = 0.98;
+
+impl Ribbon {
+    /// The centre line.
+    #[must_use]
+    pub fn centre(&self) -> kurbo::CubicBez {
+        let [a, b, c, d] = self.0.map(Knot::point);
+        kurbo::CubicBez::new(a, b, c, d)
+    }
+
+    /// The stroke drawn the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([d, c, b, a])
+    }
+
+    /// Place and width at a parameter, 0 to 1.
+    #[must_use]
+    pub fn eval(&self, t: f64) -> Knot {
+        let s = 1.0 - t;
+        let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let sum = |f: fn(&Knot) -> f64| self.0.iter().zip(weights).map(|(k, b)| f(k) * b).sum();
+        Knot::new(sum(|k| k.x), sum(|k| k.y), sum(|k| k.w))
+    }
+
+    fn pen(&self, t: f64) -> Pen {
+        let s = 1.0 - t;
+        let slope = |f: fn(&Knot) -> f64| {
+            let [a, b, c, d] = [f(&self.0[0]), f(&self.0[1]), f(&self.0[2]), f(&self.0[3])];
+            3.0 * (s * s * (b - a) + 2.0 * s * t * (c - b) + t * t * (d - c))
+        };
+        let mut velocity = Vec2::new(slope(|k| k.x), slope(|k| k.y));
+        if velocity.hypot() < 1e-7 {
+            // A handle lies on its end point: the chord of a small piece gives the direction the derivative lost.
+            let (a, b) = (self.eval((t - 1e-4).max(0.0)), self.eval((t + 1e-4).min(1.0)));
+            velocity = (b.point() - a.point()) / 2e-4;
+        }
+        let speed = velocity.hypot().max(1e-9);
+        let knot = self.eval(t);
+        let flare = if knot.w > 0.0 { slope(|k| k.w) / 2.0 / speed } else { 0.0 };
+        Pen { at: knot.point(), tangent: velocity / speed, radius: knot.w.max(0.0) / 2.0, flare }
+    }
+
+    /// Whether both sides of the envelope run forward all the way, so that it can be fitted.
+    fn is_regular(&self) -> bool {
+        const STEPS: usize = 32;
+        let pens: [Pen; STEPS + 1] = std::array::from_fn(|i| self.pen(i as f64 / STEPS as f64));
+        pens.windows(2).all(|w| {
+            let ahead = w[0].tangent + w[1].tangent;
+            let forward = |side| (w[1].contact(side) - w[0].contact(side)).dot(ahead) > 0.0;
+            w[0].flare.abs() < 0.9 && w[0].tangent.dot(w[1].tangent) > 0.7 && forward(1.0) && forward(-1.0)
+        })
+    }
+}
+
+/// One side of the envelope, as the curve to fit.
+struct Side<'a> {
+    ribbon: &'a Ribbon,
+    side: f64,
+}
+
+impl Side<'_> {
+    fn at(&self, t: f64) -> Point {
+        self.ribbon.pen(t).contact(self.side)
+    }
+
+    /// The contact point's derivative needs third derivatives of the stroke; a central difference is as exact as
+    /// the fit can use.
+    fn derivative(&self, t: f64) -> Vec2 {
+        const H: f64 = 1e-5;
+        let (a, b) = ((t - H).max(0.0), (t + H).min(1.0));
+        (self.at(b) - self.at(a)) / (b - a)
+    }
+}
+
+impl ParamCurveFit for Side<'_> {
+    fn sample_pt_tangent(&self, t: f64, _sign: f64) -> CurveFitSample {
+        CurveFitSample { p: self.at(t), tangent: self.derivative(t) }
+    }
+
+    fn sample_pt_deriv(&self, t: f64) -> (Point, Vec2) {
+        (self.at(t), self.derivative(t))
+    }
+
+    fn break_cusp(&self, _range: std::ops::Range<f64>) -> Option<f64> {
+        None
+    }
+}
+
+/// The outline of a chain of strokes as one path to be filled non-zero: every part winds the same way, so where
+/// strokes overlap, at their joints, they unite. `tolerance` is the largest distance from the true outline.
+#[must_use]
+pub fn outline(chain: &[Ribbon], tolerance: f64) -> BezPath {
+    let mut path = BezPath::new();
+    for ribbon in chain {
+        if ribbon.0.iter().all(|k| k.w <= 0.0) {
+            continue;
+        }
+        if ribbon.is_regular() {
+            fitted(ribbon, tolerance, &mut path);
+        } else {
+            united_hulls(ribbon, tolerance, &mut path);
+        }
+    }
+    path
+}
+
+fn fitted(ribbon: &Ribbon, tolerance: f64, path: &mut BezPath) {
+    let left = fit_to_bezpath(&Side { ribbon, side: 1.0 }, tolerance);
+    let right = fit_to_bezpath(&Side { ribbon, side: -1.0 }, tolerance).reverse_subpaths();
+    let (start, end) = (ribbon.pen(0.0), ribbon.pen(1.0));
+    path.extend(left.elements().iter().copied());
+    cap(path, &end, end.contact(1.0), end.contact(-1.0));
+    path.extend(right.elements().iter().skip(1).copied());
+    cap(path, &start, start.contact(-1.0), start.contact(1.0));
+    path.push(PathEl::ClosePath);
+}
+
+/// Goes round the pen's disc from one contact point to the other, against the clock in these coordinates.
+fn cap(path: &mut BezPath, pen: &Pen, from: Point, to: Point) {
+    arc(path, pen.at, from - pen.at, to - pen.at);
+}
+
+/// An arc about `centre` that turns by a negative angle, in cubics of at most a quarter turn each.
+fn arc(path: &mut BezPath, centre: Point, from: Vec2, to: Vec2) {
+    use std::f64::consts::{FRAC_PI_2, TAU};
+    let radius = from.hypot();
+    if radius < 1e-6 {
+        path.line_to(centre + to);
+        return;
+    }
+    let start = from.atan2();
+    let mut turn = to.atan2() - start;
+    while turn > 0.0 {
+        turn -= TAU;
+    }
+    let pieces = (-turn / FRAC_PI_2 - 1e-9).ceil().max(1.0);
+    let step = turn / pieces;
+    // The handle length that makes a cubic meet the circle at both ends and in the middle.
+    let handle = 4.0 / 3.0 * (step / 4.0).tan() * radius;
+    for i in 0..pieces as usize {
+        let (a, b) = (start + step * i as f64, start + step * (i + 1) as f64);
+        let (u, v) = (Vec2::from_angle(a), Vec2::from_angle(b));
+        let (p, q) = (centre + u * radius, centre + v * radius);
+        path.curve_to(p + Vec2::new(-u.y, u.x) * handle, q - Vec2::new(-v.y, v.x) * handle, q);
+    }
+}
+
+/// Unites the convex hulls of neighbouring discs: for cusps, loops and pens wider than the bend.
+fn united_hulls(ribbon: &Ribbon, tolerance: f64, path: &mut BezPath) {
+    let mut parameters = vec![0.0];
+    divide(ribbon, 0.0, 0.5, 0, tolerance, &mut parameters);
+    divide(ribbon, 0.5, 1.0, 0, tolerance, &mut parameters);
+    for pair in parameters.windows(2) {
+        let (mut a, mut b) = (ribbon.pen(pair[0]), ribbon.pen(pair[1]));
+        let along = b.at - a.at;
+        let distance = along.hypot();
+        if distance <= (a.radius - b.radius).abs() + 1e-9 {
+            let larger = if a.radius > b.radius { a } else { b };
+            if larger.radius > 1e-6 {
+                let r = Vec2::new(larger.radius, 0.0);
+                path.move_to(larger.at + r);
+                arc(path, larger.at, r, -r);
+                arc(path, larger.at, -r, r);
+                path.close_path();
+            }
+            continue;
+        }
+        (a.tangent, b.tangent) = (along / distance, along / distance);
+        let flare = (b.radius - a.radius) / distance;
+        (a.flare, b.flare) = (flare, flare);
+        path.move_to(a.contact(1.0));
+        path.line_to(b.contact(1.0));
+        cap(path, &b, b.contact(1.0), b.contact(-1.0));
+        path.line_to(a.contact(-1.0));
+        cap(path, &a, a.contact(-1.0), a.contact(1.0));
+        path.close_path();
+    }
+}
+
+/// Adds parameters until the discs between two neighbours stay within `tolerance` of their hull.
+fn divide(ribbon: &Ribbon, a: f64, b: f64, depth: u32, tolerance: f64, parameters: &mut Vec<f64>) {
+    let (pa, pb, pm) = (ribbon.eval(a), ribbon.eval(b), ribbon.eval((a + b) / 2.0));
+    let off_chord = (pm.point() - pa.point().midpoint(pb.point())).hypot();
+    let off_width = (pm.w.max(0.0) - (pa.w.max(0.0) + pb.w.max(0.0)) / 2.0).abs() / 2.0;
+    if depth < 9 && off_chord.max(off_width) > tolerance {
+        divide(ribbon, a, f64::midpoint(a, b), depth + 1, tolerance, parameters);
+        divide(ribbon, f64::midpoint(a, b), b, depth + 1, tolerance, parameters);
+    } else {
+        parameters.push(b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::Shape;
+    use proptest::prelude::*;
+
+    fn covered(path: &BezPath, p: Point) -> bool {
+        path.winding(p) != 0
+    }
+
+    #[test]
+    fn a_straight_even_stroke_is_a_capsule() {
+        let k = |x| Knot::new(x, 0.0, 10.0);
+        let path = outline(&[Ribbon([k(0.0), k(30.0), k(60.0), k(90.0)])], 0.01);
+        let area = path.area().abs();
+        let truth = 90.0 * 10.0 + std::f64::consts::PI * 25.0;
+        assert!((area - truth).abs() < 0.01 * truth, "{area} against {truth}");
+    }
+
+    #[test]
+    fn a_stroke_without_width_draws_nothing() {
+        let k = |x| Knot::new(x, 0.0, 0.0);
+        assert!(outline(&[Ribbon([k(0.0), k(1.0), k(2.0), k(3.0)])], 0.01).elements().is_empty());
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(128))]
+
+        /// Against the truth, the union of discs: nothing well inside is missed, nothing well outside is inked.
+        #[test]
+        fn any_stroke_covers_its_discs_and_nothing_else(
+            c in prop::array::uniform4((0.0..100.0f64, 0.0..100.0f64, 0.0..20.0f64)),
+        ) {
+            let ribbon = Ribbon(c.map(|(x, y, w)| Knot::new(x, y, w)));
+            let path = outline(&[ribbon], 0.02);
+            let discs: Vec<Knot> = (0..=400).map(|i| ribbon.eval(f64::from(i) / 400.0)).collect();
+            for gx in 0..26 {
+                for gy in 0..26 {
+                    let p = Point::new(f64::from(gx) * 5.0 - 12.0 + 0.37, f64::from(gy) * 5.0 - 12.0 + 0.21);
+                    let depth = discs.iter().map(|k| k.w / 2.0 - (k.point() - p).hypot()).fold(f64::MIN, f64::max);
+                    prop_assert!(depth < 0.25 || covered(&path, p), "missed {p:?} at depth {depth}");
+                    prop_assert!(depth > -0.25 || !covered(&path, p), "inked {p:?} at depth {depth}");
+                }
+            }
+        }
+    }
+}

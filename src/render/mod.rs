@@ -1,0 +1,19 @@
+//! A drawing as SVG text or as pixels. It decides nothing about what is drawn.
+//!
+//! Both ways show the same picture; the pixels do not take the way over SVG text.
+
+mod font;
+mod pixels;
+mod png;
+mod svg;
+
+pub use font::{text_outline, text_width, uncovered};
+pub use pixels::{Painter, Picture};
+pub use png::{decode_key, encode_png};
+pub use svg::to_svg;
+
+/// The largest picture side that is made: 16,384 pixels.
+pub const MAX_SIDE: u32 = 16_384;
+
+/// How far an outline may be from the true one, in units of the drawing: a tenth of a pixel at twice its size.
+const TOLERANCE: f64 = 0.05;

@@ -1,0 +1,77 @@
+//! Pixels as PNG, with a key that says what they show, so that an interrupted export can tell what is done.
+
+use super::Picture;
+use crate::disk::{Fault, Result};
+
+/// The keyword of the text chunk that carries the key.
+const KEYWORD: &[u8] = b"lianpu";
+
+/// The PNG file of a picture: RGBA, each row told by its difference from the one above, which suits flat colours
+/// and costs a third of the other filters. `key` goes into a text chunk before the pixels.
+///
+/// # Errors
+/// When the encoder refuses the size.
+pub fn encode_png(picture: &Picture, key: &str) -> Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(64 << 10);
+    let encoded = (|| {
+        let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_filter(png::Filter::Up);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        if !key.is_empty() {
+            encoder.add_text_chunk(String::from_utf8_lossy(KEYWORD).into_owned(), key.to_owned())?;
+        }
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&picture.rgba)?;
+        writer.finish()
+    })();
+    encoded.map_err(|e| Fault::new(format!("the picture cannot be written as PNG: {e}")))?;
+    Ok(bytes)
+}
+
+/// The key of a PNG file that is whole: every chunk's checksum holds and the end is there. `None` for any other.
+#[must_use]
+pub fn decode_key(file: &[u8]) -> Option<String> {
+    let mut rest = file.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
+    let mut key = None;
+    loop {
+        let length = u32::from_be_bytes(rest.get(..4)?.try_into().ok()?) as usize;
+        let body = rest.get(4..length.checked_add(8)?)?;
+        let sum = u32::from_be_bytes(rest.get(length + 8..length + 12)?.try_into().ok()?);
+        if crc32fast::hash(body) != sum {
+            return None;
+        }
+        let (kind, data) = body.split_at(4);
+        match kind {
+            b"tEXt" => {
+                if let Some(text) = data.strip_prefix(KEYWORD).and_then(|d| d.strip_prefix(b"\0")) {
+                    key = Some(String::from_utf8_lossy(text).into_owned());
+                }
+            }
+            b"IEND" => return key,
+            _ => {}
+        }
+        rest = rest.get(length + 12..)?;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_is_read_back_and_a_damaged_file_has_none() {
+        let picture = Picture { width: 3, height: 2, rgba: (0..24).collect() };
+        let file = encode_png(&picture, "abc").unwrap();
+        assert_eq!(decode_key(&file).as_deref(), Some("abc"));
+        for cut in 0..file.len() {
+            assert_eq!(decode_key(&file[..cut]), None, "cut at {cut}");
+        }
+        let mut damaged = file.clone();
+        let last = damaged.len() - 20;
+        damaged[last] ^= 1;
+        assert_eq!(decode_key(&damaged), None);
+    }
+}

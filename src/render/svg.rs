@@ -1,0 +1,200 @@
+//! A drawing as one readable SVG file: a group a layer, every shape under its own name, title and description for
+//! screen readers, and no more digits than can be seen.
+
+use std::fmt::Write;
+
+use super::TOLERANCE;
+use crate::drawing::{Anchor, Drawing, Item};
+use crate::geometry::{Affine, BezPath, PathEl, Point, outline};
+
+/// The SVG text of a drawing, `width` × `height` pixels large. Text stays text.
+#[must_use]
+pub fn to_svg(drawing: &Drawing, width: u32, height: u32) -> String {
+    let mut out = String::with_capacity(16 << 10);
+    let v = drawing.view;
+    let _ = writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"{} {} {} {}\" \
+         role=\"img\" aria-labelledby=\"title desc\">",
+        Short(v.x0),
+        Short(v.y0),
+        Short(v.width()),
+        Short(v.height())
+    );
+    let _ = writeln!(out, "<title id=\"title\">{}</title>", Escaped(&drawing.title));
+    let _ = writeln!(out, "<desc id=\"desc\">{}</desc>", Escaped(&drawing.description));
+    if let Some(colour) = drawing.background {
+        // Beyond the view box too, which is fitted whole and leaves margins where the proportions differ.
+        let scale = (f64::from(width) / v.width()).min(f64::from(height) / v.height());
+        let (w, h) = (f64::from(width) / scale, f64::from(height) / scale);
+        let corner = v.center() - crate::geometry::Vec2::new(w / 2.0, h / 2.0);
+        let _ = writeln!(
+            out,
+            "<rect id=\"background\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>",
+            Short(corner.x),
+            Short(corner.y),
+            Short(w),
+            Short(h),
+            fill(colour)
+        );
+    }
+    let mut clips = 0;
+    for layer in &drawing.layers {
+        let _ = writeln!(out, "<g id=\"{}\">", Escaped(&layer.name));
+        for item in &layer.items {
+            write_item(&mut out, item, &mut clips);
+        }
+        out.push_str("</g>\n");
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
+    match item {
+        Item::Area(area) => write_path(out, &area.name, &area.path, &fill(area.colour)),
+        Item::Ink(ink) => write_path(out, &ink.name, &outline(&ink.strokes, TOLERANCE), &fill(ink.colour)),
+        Item::Text(text) => {
+            let anchor = match text.anchor {
+                Anchor::Start => "",
+                Anchor::Middle => " text-anchor=\"middle\"",
+                Anchor::End => " text-anchor=\"end\"",
+            };
+            let _ = writeln!(
+                out,
+                "<text x=\"{}\" y=\"{}\" font-family=\"Inter, sans-serif\" font-size=\"{}\"{anchor}{}>{}</text>",
+                Short(text.at.x),
+                Short(text.at.y),
+                Short(text.size),
+                fill(text.colour),
+                Escaped(&text.text)
+            );
+        }
+        Item::Group(group) => {
+            let mut clip = String::new();
+            if let Some(path) = &group.clip {
+                *clips += 1;
+                let _ = write!(clip, " clip-path=\"url(#clip{clips})\"");
+                let _ = writeln!(out, "<clipPath id=\"clip{clips}\"><path d=\"{}\"/></clipPath>", data(path));
+            }
+            let id = if group.name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(&group.name)) };
+            let _ = writeln!(out, "<g{id}{clip}{}>", transform(group.transform));
+            for item in &group.items {
+                write_item(out, item, clips);
+            }
+            out.push_str("</g>\n");
+        }
+    }
+}
+
+fn write_path(out: &mut String, name: &str, path: &BezPath, fill: &str) {
+    if path.elements().is_empty() {
+        return;
+    }
+    let id = if name.is_empty() { String::new() } else { format!("id=\"{}\" ", Escaped(name)) };
+    let _ = writeln!(out, "<path {id}d=\"{}\"{fill}/>", data(path));
+}
+
+fn fill(colour: crate::drawing::Colour) -> String {
+    if colour.a == 255 {
+        format!(" fill=\"{}\"", colour.hex())
+    } else {
+        format!(" fill=\"{}\" fill-opacity=\"{}\"", colour.hex(), Short(f64::from(colour.a) / 255.0))
+    }
+}
+
+fn transform(affine: Affine) -> String {
+    if affine == Affine::IDENTITY {
+        return String::new();
+    }
+    let [a, b, c, d, e, f] = affine.as_coeffs();
+    // A hundredth of a unit over a thousand units wide needs five digits in the linear part.
+    format!(
+        " transform=\"matrix({} {} {} {} {} {})\"",
+        Digits(a, 5),
+        Digits(b, 5),
+        Digits(c, 5),
+        Digits(d, 5),
+        Short(e),
+        Short(f)
+    )
+}
+
+fn data(path: &BezPath) -> String {
+    let mut d = String::with_capacity(path.elements().len() * 24);
+    for element in path.elements() {
+        match *element {
+            PathEl::MoveTo(p) => write_points(&mut d, 'M', &[p]),
+            PathEl::LineTo(p) => write_points(&mut d, 'L', &[p]),
+            PathEl::QuadTo(a, p) => write_points(&mut d, 'Q', &[a, p]),
+            PathEl::CurveTo(a, b, p) => write_points(&mut d, 'C', &[a, b, p]),
+            PathEl::ClosePath => d.push('Z'),
+        }
+    }
+    d
+}
+
+fn write_points(d: &mut String, command: char, points: &[Point]) {
+    d.push(command);
+    for (i, p) in points.iter().enumerate() {
+        let gap = if i == 0 { "" } else { " " };
+        let _ = write!(d, "{gap}{} {}", Short(p.x), Short(p.y));
+    }
+}
+
+/// A number to a hundredth of a unit, without trailing zeros.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        Digits(self.0, 2).fmt(f)
+    }
+}
+
+/// A number to so many digits after the point, without trailing zeros, and 0 without a sign.
+struct Digits(f64, i32);
+
+impl std::fmt::Display for Digits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let step = 10f64.powi(self.1);
+        let rounded = (self.0 * step).round() / step;
+        write!(f, "{}", if rounded == 0.0 { 0.0 } else { rounded })
+    }
+}
+
+/// Text safe inside elements and quoted attributes.
+struct Escaped<'a>(&'a str);
+
+impl std::fmt::Display for Escaped<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for c in self.0.chars() {
+            match c {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                c => f.write_char(c)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_carry_no_more_digits_than_can_be_seen() {
+        let shown = |x: f64| Short(x).to_string();
+        assert_eq!(shown(1.0), "1");
+        assert_eq!(shown(-0.001), "0");
+        assert_eq!(shown(2.3456), "2.35");
+        assert_eq!(shown(1e7), "10000000");
+    }
+
+    #[test]
+    fn text_cannot_break_out_of_its_place() {
+        assert_eq!(Escaped("<a b=\"&\">").to_string(), "&lt;a b=&quot;&amp;&quot;&gt;");
+    }
+}
