@@ -143,9 +143,14 @@ impl Drawing {
     /// The drawing as one thing that fits into `frame` of another drawing, centred: how sheets are made.
     #[must_use]
     pub fn placed_in(&self, frame: Rect) -> Item {
-        let items =
-            self.layers.iter().map(|layer| Item::moved(String::new(), Affine::IDENTITY, layer.items.clone())).collect();
-        Item::moved(self.title.clone(), fit(self.view, frame), items)
+        use crate::geometry::Shape;
+        let items = self.layers.iter().flat_map(|layer| layer.items.iter().cloned()).collect();
+        Item::Group(Group {
+            name: String::new(),
+            transform: fit(self.view, frame),
+            clip: Some(self.view.to_path(0.1)),
+            items,
+        })
     }
 }
 

@@ -5,7 +5,8 @@
 mod ribbon;
 
 pub use kurbo::{
-    Affine, BezPath, Circle, CubicBez, Ellipse, ParamCurve, ParamCurveDeriv, PathEl, Point, Rect, Shape, Vec2,
+    Affine, BezPath, Circle, CubicBez, Ellipse, ParamCurve, ParamCurveDeriv, ParamCurveNearest, PathEl, Point, Rect,
+    Shape, Vec2,
 };
 pub use ribbon::{Knot, Ribbon, outline};
 

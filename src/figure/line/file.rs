@@ -21,7 +21,6 @@
 //! nose = [249, 404]               # the base of the nose, from which MNS0 is measured
 //! upper = ["lmu", "rmulink", "rmu"]
 //! lower = ["lmb", "rmblink", "rmb"]
-//! pairs = [[32, 43]]              # upper and lower points that meet when the lips do
 //! ```
 
 use serde::Deserialize;
@@ -120,8 +119,6 @@ struct FileMouth {
     nose: [f64; 2],
     upper: Vec<String>,
     lower: Vec<String>,
-    #[serde(default)]
-    pairs: Vec<[usize; 2]>,
 }
 
 impl LineFigure {
@@ -177,11 +174,7 @@ impl LineFigure {
         let m = &file.mouth;
         let upper = m.upper.iter().map(line).collect::<Result<Vec<_>>>()?;
         let lower = m.lower.iter().map(line).collect::<Result<Vec<_>>>()?;
-        if let Some(pair) = m.pairs.iter().find(|p| p.iter().any(|i| *i >= count)) {
-            return Err(Fault::new(format!("`pairs` names the points {pair:?}"))
-                .help(format!("points are numbered 0 to {}", count.saturating_sub(1))));
-        }
-        let mouth = Mouth::new(upper, lower, m.pairs.clone(), Point::new(m.nose[0], m.nose[1]), &drawings[0], &lines)?;
+        let mouth = Mouth::new(upper, lower, Point::new(m.nose[0], m.nose[1]), &drawings[0], &lines)?;
         for eye in &mut eyes {
             eye.mark_side(mouth.middle());
         }

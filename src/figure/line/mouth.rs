@@ -1,21 +1,24 @@
 //! The mouth of a line figure: the emotion's own, and on top of it what speech does.
 //!
 //! A table of seven drawings has no spoken mouths. They come from a model mouth, two cubics a lip from the middle to
-//! each corner, that any shape can be set to by the moves of its four control points (thesis 5.2.3). What the model
-//! does between *m* and the spoken shape is added to the points of the emotion's mouth.
+//! each corner, that any shape sets by the moves of its four control points (thesis 5.2.3) away from where the
+//! emotion has them; the figure's lip lines are then pieces of the model.
 
 use super::{Line, LineFigure};
 use crate::disk::{Fault, Result};
 use crate::drawing::Item;
 use crate::geometry::{
-    BezPath, CubicBez, Ellipse, Knot, ParamCurve, ParamCurveDeriv, PathEl, Point, Rect, Ribbon, Shape, Vec2, hermite,
-    lerp,
+    BezPath, CubicBez, Ellipse, Knot, ParamCurve, ParamCurveDeriv, ParamCurveNearest, PathEl, Point, Rect, Ribbon,
+    Shape, Vec2, hermite, lerp,
 };
 use crate::pose::MouthPose;
 
 /// How much of the emotion's own opening stays while a syllable is spoken. All of it, added to an open vowel, would
 /// shout; none would lose a grin.
 const EMOTION_WHILE_SPEAKING: f64 = 0.3;
+
+/// The narrowest half mouth, as a share of MW0: an *u* of a pursed mouth is still a mouth.
+const NARROWEST: f64 = 0.11;
 
 /// An opening below this share of M is hidden under the ink of the lips.
 const SLIVER: f64 = 0.05;
@@ -29,8 +32,6 @@ pub(super) struct Mouth {
     /// Lines of each lip from the image's left to its right.
     upper: Vec<usize>,
     lower: Vec<usize>,
-    /// Upper and lower points that meet when the lips do.
-    pairs: Vec<[usize; 2]>,
     /// For every line of the mouth, where its four control points lie on the model.
     seats: Vec<Seat>,
     centre: Point,
@@ -48,7 +49,19 @@ struct Seat {
     to: f64,
 }
 
-/// The model set to one mouth, relative to the middle of the neutral mouth, y down.
+/// Where the emotion has its mouth.
+struct Frame {
+    /// Between the corners, between the lips.
+    origin: Point,
+    /// Half the distance of the corners.
+    half: f64,
+    /// The corners' height below the origin.
+    corner: f64,
+    /// How far the emotion alone parts the lips.
+    opening: f64,
+}
+
+/// The model set to one mouth, relative to a frame's origin, y down.
 struct Model {
     /// From the middle to the right corner.
     upper: CubicBez,
@@ -59,7 +72,6 @@ impl Mouth {
     pub(super) fn new(
         upper: Vec<usize>,
         lower: Vec<usize>,
-        pairs: Vec<[usize; 2]>,
         nose: Point,
         neutral: &[Knot],
         lines: &[Line],
@@ -77,13 +89,14 @@ impl Mouth {
         let mut mouth = Self {
             upper,
             lower,
-            pairs,
             seats: Vec::new(),
             centre: Point::new(f64::midpoint(left, right), f64::midpoint(lip, bottom)),
             width,
-            unit: (lip - nose.y).max(0.33 * width),
+            // The recipe's M = max(MNS0, .33 MW0), and not above .40 MW0: a line face's long upper lip would open
+            // its vowels down to the chin.
+            unit: (lip - nose.y).clamp(0.33 * width, 0.40 * width),
         };
-        let rest = mouth.model(&MouthPose::REST);
+        let rest = mouth.model(&MouthPose::REST, &mouth.neutral_frame());
         for (list, is_upper) in [(&mouth.upper, true), (&mouth.lower, false)] {
             for line in list {
                 let ends = lines[*line].points;
@@ -94,20 +107,25 @@ impl Mouth {
         Ok(mouth)
     }
 
-    /// The model mouth of a pose. The curves are the recipe's: nearly straight where closed, rounder the further it
-    /// opens and the narrower it gets.
-    fn model(&self, mouth: &MouthPose) -> Model {
+    /// The model mouth of a pose in a frame, relative to the frame's origin. The curves are the recipe's: nearly
+    /// straight where closed, rounder the further it opens and the narrower it gets.
+    fn model(&self, mouth: &MouthPose, frame: &Frame) -> Model {
         let open = 1.0 - mouth.closure;
-        let upper = (mouth.upper * open - BITE * mouth.bite) * self.unit;
-        let lower = mouth.lower * open * self.unit;
-        let half = self.width * (0.5 - mouth.corner_in);
-        let narrowed = ((2.0 * mouth.corner_in) / 0.34).clamp(0.0, 1.0);
+        let kept = 0.5 * EMOTION_WHILE_SPEAKING * frame.opening * open;
+        let upper = (mouth.upper * open - BITE * mouth.bite) * self.unit - kept;
+        let lower = mouth.lower * open * self.unit + kept;
+        // A mouth that the emotion has narrowed already gives way less to a rounded vowel.
+        let narrowing = mouth.corner_in * self.width * (2.0 * frame.half / self.width).min(1.0);
+        let half = (frame.half - narrowing).max(NARROWEST * self.width);
+        let narrowed = ((1.0 - 2.0 * half / self.width) / 0.34).clamp(0.0, 1.0);
         let gap = (lower - upper).max(0.0);
         let mut round = (1.9 * gap / (2.0 * half)).clamp(0.0, 1.0);
         if gap > SLIVER * self.unit {
             round = round.max(narrowed);
         }
-        let corner = Point::new(half, mouth.corner_down * self.unit);
+        // Pursed lips gather: a rounded vowel has no room for the emotion's raised or hanging corners.
+        let gathered = (mouth.corner_in / 0.22).clamp(0.0, 1.0);
+        let corner = Point::new(half, frame.corner * (1.0 - 0.6 * gathered) + mouth.corner_down * self.unit);
         let lip = |middle: f64, round: f64| {
             let rise = middle - corner.y;
             CubicBez::new(
@@ -120,33 +138,68 @@ impl Mouth {
         Model { upper: lip(upper, 0.85 * round), lower: lip(lower, round) }
     }
 
-    /// Brings speech into blended points: what the emotion opens is closed as far as speech takes the mouth over,
-    /// then the model's move away from *m* is added.
+    /// Brings speech into blended points. Where a syllable is spoken the lips are the model's, set in the emotion's
+    /// own frame: its corners, its width, the line between its lips; at rest they are the table's.
     pub(super) fn speak(&self, knots: &mut [Knot], neutral: &[Knot], mouth: &MouthPose, lines: &[Line]) {
-        if *mouth == MouthPose::REST {
+        let spoken = mouth.speaking.max(mouth.closure).clamp(0.0, 1.0);
+        if spoken == 0.0 {
             return;
         }
-        let taken = 1.0 - (1.0 - mouth.closure) * (1.0 - (1.0 - EMOTION_WHILE_SPEAKING) * mouth.speaking);
-        for [a, b] in &self.pairs {
-            let (upper, lower) = (knots[*a], knots[*b]);
-            for (i, knot) in [(*a, upper), (*b, lower)] {
-                knots[i].x = lerp(knot.x, f64::midpoint(upper.x, lower.x), taken);
-                knots[i].y = lerp(knot.y, f64::midpoint(upper.y, lower.y), taken);
+        let frame = self.frame_of(knots, lines);
+        let model = self.model(mouth, &frame);
+        // What is the figure's own about its closed lips, such as a cat's, goes as the lips part.
+        let own = (1.0 - 2.0 * mouth.opening()).max(0.0);
+        let level = self.model(&MouthPose::REST, &self.neutral_frame());
+        let mut placed = vec![false; knots.len()];
+        for seat in &self.seats {
+            let (piece, level) = (model.piece(seat), level.piece(seat));
+            for ((place, level), p) in piece.into_iter().zip(level).zip(lines[seat.line].points) {
+                // Corners belong to both lips and are placed once.
+                if std::mem::replace(&mut placed[p], true) {
+                    continue;
+                }
+                let knot = &mut knots[p];
+                let character = (neutral[p].point() - self.centre - level.to_vec2()) * own;
+                let place = frame.origin + place.to_vec2() + character;
+                knot.x = lerp(knot.x, place.x, spoken);
+                knot.y = lerp(knot.y, place.y, spoken);
                 // Closed lips are one firm line, as neutral ones are; parted ones thin out.
-                knots[i].w = lerp(knot.w, neutral[i].w, taken) * (1.0 - 0.3 * mouth.opening().min(1.0));
+                knot.w = lerp(knot.w, neutral[p].w * (1.0 - 0.3 * mouth.opening().min(1.0)), spoken);
             }
         }
-        let (rest, spoken) = (self.model(&MouthPose::REST), self.model(mouth));
-        let mut moved = vec![false; knots.len()];
-        for seat in &self.seats {
-            let (before, after) = (rest.piece(seat), spoken.piece(seat));
-            for (i, p) in lines[seat.line].points.into_iter().enumerate() {
-                // Corners belong to both lips and move once.
-                if !std::mem::replace(&mut moved[p], true) {
-                    knots[p].x += after[i].x - before[i].x;
-                    knots[p].y += after[i].y - before[i].y;
-                }
-            }
+    }
+
+    fn neutral_frame(&self) -> Frame {
+        Frame { origin: self.centre, half: 0.5 * self.width, corner: 0.0, opening: 0.0 }
+    }
+
+    /// Corners, width and opening of the emotion's mouth.
+    fn frame_of(&self, knots: &[Knot], lines: &[Line]) -> Frame {
+        let end = |line: usize, i: usize| knots[lines[line].points[i]].point();
+        let corner = |line: usize, right: bool| {
+            let (a, b) = (end(line, 0), end(line, 3));
+            if (a.x > b.x) == right { a } else { b }
+        };
+        let (left, right) = match (self.upper.first(), self.upper.last()) {
+            (Some(first), Some(last)) => (corner(*first, false), corner(*last, true)),
+            _ => (self.centre, self.centre),
+        };
+        // Where each lip's middle is: the mean of its lines' heights at their innermost ends, weighted by nothing,
+        // for figures draw their lips level there.
+        let middle = |list: &[usize]| {
+            let inner = |line: &usize| {
+                let (a, b) = (end(*line, 0), end(*line, 3));
+                if (a.x - self.centre.x).abs() < (b.x - self.centre.x).abs() { a.y } else { b.y }
+            };
+            list.iter().map(inner).sum::<f64>() / list.len().max(1) as f64
+        };
+        let (above, below) = (middle(&self.upper), middle(&self.lower));
+        let origin = Point::new(f64::midpoint(left.x, right.x), f64::midpoint(above, below));
+        Frame {
+            origin,
+            half: 0.5 * (right.x - left.x).abs(),
+            corner: f64::midpoint(left.y, right.y) - origin.y,
+            opening: (below - above).max(0.0),
         }
     }
 
@@ -161,7 +214,7 @@ impl Mouth {
 
     /// The mouth back to front: inside, tongue, teeth, lips.
     pub(super) fn draw(&self, figure: &LineFigure, knots: &[Knot], mouth: &MouthPose) -> Vec<Item> {
-        let lip = |list: &[usize]| -> Vec<Ribbon> { list.iter().map(|l| figure.ribbon(*l, knots)).collect() };
+        let lip = |list: &[usize]| seated(list.iter().map(|l| figure.ribbon(*l, knots)).collect());
         let (upper, lower) = (lip(&self.upper), lip(&self.lower));
         let (top, bottom) = (edge(&upper), edge(&lower));
         let mut items = Vec::new();
@@ -250,6 +303,31 @@ impl Model {
         let c = hermite(a, da * span, b, db * span);
         [c.p0, c.p1, c.p2, c.p3]
     }
+}
+
+/// A lip's strokes with the links between the outermost two brought under their ink: each end of a link comes to
+/// the nearest place on a host's centre line and is no wider than the host there, so that no cap stands out.
+fn seated(mut lip: Vec<Ribbon>) -> Vec<Ribbon> {
+    let (Some(first), Some(last)) = (lip.first().copied(), lip.last().copied()) else { return lip };
+    let count = lip.len();
+    for link in lip.iter_mut().take(count.saturating_sub(1)).skip(1) {
+        for (end, handle) in [(0, 1), (3, 2)] {
+            let from = link.0[end];
+            let seat = [first, last]
+                .iter()
+                .map(|host| {
+                    let near = host.centre().nearest(from.point(), 1e-3);
+                    (near.distance_sq, host.eval(near.t))
+                })
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((_, seat)) = seat {
+                link.0[end] = Knot { w: from.w.min(seat.w), ..seat };
+                link.0[handle].y += seat.y - from.y;
+                link.0[handle].w = link.0[handle].w.min(seat.w);
+            }
+        }
+    }
+    lip
 }
 
 /// A lip's centre line from left to right: its outermost two strokes, bridged in the middle where they stop short of
