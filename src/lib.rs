@@ -9,6 +9,7 @@ pub mod geometry;
 pub mod pose;
 pub mod drawing;
 pub mod disk;
+pub mod timeline;
 pub mod figure;
 pub mod render;
 pub mod cli;

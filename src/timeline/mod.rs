@@ -1,0 +1,173 @@
+//! The score of a clip: the tracks of mouth, ratios, blinks, gaze and head at real times, and the pose they give at
+//! any instant.
+//!
+//! A timeline is built once from what speech, video and the author say, by the rules of who wins where they meet
+//! (mouth: author, then tracked video, then speech; ratios: the author's keys over the record, range edits in it).
+//! Built, it only answers: `pose(t)` is a pure function. Time is in seconds; frames appear only in [`Timeline::frames`].
+
+mod blink;
+mod ease;
+mod mouth;
+mod ratios;
+mod score;
+mod smooth;
+
+pub use blink::Blink;
+pub use ease::Ease;
+pub use mouth::{MouthKey, Origin, Spoken};
+pub use score::{Key, KeyValue, Marker, Range, Score, Track};
+pub use smooth::smooth_keeping_peaks;
+
+use crate::emotion::{Record, Tracks};
+use crate::pose::{Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
+use ease::Curve;
+
+/// What a timeline is built from.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// Length of the clip in seconds.
+    pub duration: f64,
+    /// Frames a second it is built for: a closure lasts at least one of them.
+    pub fps: f64,
+    /// What is said, in order.
+    pub spoken: &'a [Spoken],
+    /// The ratio record of a video.
+    pub record: Option<&'a Record>,
+    /// Eyes, mouth and head of a video.
+    pub tracks: Option<&'a Tracks>,
+    /// What the author set.
+    pub score: &'a Score,
+    /// Which nine mouth shapes.
+    pub mouths: MouthPreset,
+}
+
+/// A built score.
+#[derive(Debug, Clone)]
+pub struct Timeline {
+    duration: f64,
+    fps: f64,
+    mouth: mouth::MouthTrack,
+    ratios: ratios::RatioTrack,
+    blinks: Vec<Blink>,
+    gaze: Curve<2>,
+    head: Curve<3>,
+    lids: Curve<2>,
+}
+
+impl Timeline {
+    /// Builds the score of a clip.
+    #[must_use]
+    pub fn build(sources: &Sources<'_>) -> Self {
+        let score = sources.score;
+        let tracked = |pick: fn(&crate::emotion::TrackRow) -> Vec<f64>| -> Vec<(f64, Vec<f64>)> {
+            sources.tracks.map_or(Vec::new(), |t| t.rows.iter().map(|r| (r.time, pick(r))).collect())
+        };
+        let gaze = author_or_tracked(
+            score.keys.iter().filter_map(|k| match k.value {
+                KeyValue::Gaze(g) => Some((k.time, [g.x, g.y], k.ease)),
+                _ => None,
+            }),
+            &tracked(|r| vec![r.gaze_x, r.gaze_y]),
+        );
+        let head = author_or_tracked(
+            score.keys.iter().filter_map(|k| match k.value {
+                KeyValue::Head(h) => Some((k.time, [h.x, h.y, h.roll], k.ease)),
+                _ => None,
+            }),
+            &tracked(|r| vec![r.head_x, r.head_y, r.head_roll]),
+        );
+        // A video has the blinks of its speaker, so none are made up.
+        let lids = author_or_tracked(std::iter::empty(), &tracked(|r| vec![r.lid_left, r.lid_right]));
+        let blinks = blink::blinks(score, sources.duration, sources.tracks.is_none());
+        Self {
+            duration: sources.duration.max(0.0),
+            fps: sources.fps,
+            mouth: mouth::MouthTrack::build(sources),
+            ratios: ratios::RatioTrack::build(sources.record, score),
+            blinks,
+            gaze,
+            head,
+            lids,
+        }
+    }
+
+    /// Length in seconds.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Frames a second.
+    #[must_use]
+    pub fn fps(&self) -> f64 {
+        self.fps
+    }
+
+    /// How many frames the clip has: ⌈duration × fps⌉. Frame k shows the time k / fps.
+    #[must_use]
+    pub fn frames(&self) -> u32 {
+        // A length that is a whole number of frames up to rounding is that number.
+        (self.duration * self.fps - 1e-6).ceil().clamp(0.0, f64::from(u32::MAX)) as u32
+    }
+
+    /// The time that a frame shows.
+    #[must_use]
+    pub fn time_of(&self, frame: u32) -> f64 {
+        f64::from(frame) / self.fps
+    }
+
+    /// Everything a figure needs at time `t`.
+    #[must_use]
+    pub fn pose(&self, t: f64) -> Pose {
+        let (mouth, shape) = self.mouth.at(t);
+        let closed = self.blinks.iter().map(|b| b.closed_at(t)).fold(0.0, f64::max);
+        let [left, right] = self.lids.at(t).unwrap_or([1.0, 1.0]);
+        let [x, y] = self.gaze.at(t).unwrap_or_default();
+        let [head_x, head_y, roll] = self.head.at(t).unwrap_or_default();
+        Pose {
+            ratios: self.ratios.at(t),
+            mouth,
+            shape,
+            gaze: Gaze { x, y },
+            lids: Lids { left: left * (1.0 - closed), right: right * (1.0 - closed) },
+            head: Head { x: head_x, y: head_y, roll },
+        }
+    }
+
+    /// The ratios alone.
+    #[must_use]
+    pub fn ratios(&self, t: f64) -> Ratios {
+        self.ratios.at(t)
+    }
+
+    /// The mouth alone, with the shape it is nearest to.
+    #[must_use]
+    pub fn mouth(&self, t: f64) -> (MouthPose, Option<MouthShape>) {
+        self.mouth.at(t)
+    }
+
+    /// The key frames of the mouth in order, whoever set them.
+    #[must_use]
+    pub fn mouth_keys(&self) -> &[MouthKey] {
+        self.mouth.keys()
+    }
+
+    /// The blinks in order.
+    #[must_use]
+    pub fn blinks(&self) -> &[Blink] {
+        &self.blinks
+    }
+}
+
+/// A curve through the author's keys where there are any, else through what was tracked.
+fn author_or_tracked<const N: usize>(
+    keys: impl Iterator<Item = (f64, [f64; N], Ease)>,
+    tracked: &[(f64, Vec<f64>)],
+) -> Curve<N> {
+    let keys: Vec<_> = keys.collect();
+    if !keys.is_empty() {
+        return Curve::new(keys);
+    }
+    let fixed = |v: &Vec<f64>| std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0));
+    Curve::new(tracked.iter().map(|(t, v)| (*t, fixed(v), Ease::Linear)).collect())
+}

@@ -1,0 +1,361 @@
+//! The mouth's track: syllables become key frames, keys become a continuous mouth.
+//!
+//! Every shape is a target that is reached when its sound starts and held until the mouth must leave for the next.
+//! Where speech is fast the targets give way to each other (coarticulation): a vowel with little time is reached in
+//! part, so that the mouth does not flap. A closure never gives way: it is reached whole and lasts a frame at least.
+
+use super::ease::Curve;
+use super::{Ease, KeyValue, Sources};
+use crate::pose::{MouthPose, MouthPreset, MouthShape};
+
+/// The longest way from one shape to the next, in seconds. Lips need 60 to 120 ms between targets.
+const TRAVEL: f64 = 0.10;
+
+/// Seconds before the first sound at which a resting mouth starts to move, and after the last at which it rests.
+const PREPARE: f64 = 0.12;
+const RELEASE: f64 = 0.18;
+
+/// A gap between syllables shorter than this keeps the mouth speaking.
+const BREATH: f64 = 0.30;
+
+/// A target held for this long is reached whole.
+const FULL_TARGET: f64 = 0.13;
+
+/// However short its time, this much of a target is reached.
+const LEAST_TARGET: f64 = 0.4;
+
+/// A closure's usual length, where its slot allows.
+const CLOSURE: f64 = 0.07;
+
+/// An author's key makes the keys of speech this near give way, in seconds.
+const AUTHOR_REACH: f64 = 0.06;
+
+/// A moved key stands for the key of speech at that time, give or take this.
+const REPLACES_REACH: f64 = 0.02;
+
+/// A syllable or word with its mouth shapes, in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spoken {
+    /// Seconds.
+    pub start: f64,
+    /// Seconds.
+    pub end: f64,
+    /// Shapes in order, each with the share of the whole at which it starts: 0 for the first, growing, below 1.
+    pub shapes: Vec<(f64, MouthShape)>,
+}
+
+/// Who set a key of the mouth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// A syllable (by its number).
+    Speech(usize),
+    /// The author.
+    Author,
+    /// The pause before, between or after what is said.
+    Pause,
+}
+
+/// A key frame of the mouth: a target and how long it is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MouthKey {
+    /// When it is reached, in seconds.
+    pub time: f64,
+    /// Until when it is held.
+    pub until: f64,
+    /// The shape; none at rest.
+    pub shape: Option<MouthShape>,
+    /// What the mouth does there.
+    pub pose: MouthPose,
+    /// Who set it.
+    pub origin: Origin,
+    ease: Ease,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct MouthTrack {
+    keys: Vec<MouthKey>,
+    curve: Curve<11>,
+    tracked: bool,
+}
+
+impl MouthTrack {
+    pub(super) fn build(sources: &Sources<'_>) -> Self {
+        let mut keys = match sources.tracks {
+            Some(_) => Vec::new(),
+            None => of_speech(sources.spoken, 1.0 / sources.fps, sources.mouths),
+        };
+        let tracked = sources.tracks.is_some();
+        let mut own = Vec::new();
+        for key in sources.score.sorted_keys() {
+            if let KeyValue::Mouth(shape) = key.value {
+                let pose = shape.map_or(MouthPose::REST, |s| MouthPose::of(s, sources.mouths));
+                // A closure of the author's lasts a frame as well.
+                let held = if shape.is_some_and(MouthShape::closes) { 1.0 / sources.fps } else { 0.0 };
+                own.push(MouthKey {
+                    time: key.time,
+                    until: key.time + held,
+                    shape,
+                    pose,
+                    origin: Origin::Author,
+                    ease: key.ease,
+                });
+                keys.retain(|k| {
+                    let near = k.time < key.time + AUTHOR_REACH && k.until > key.time - AUTHOR_REACH;
+                    let replaced = key.replaces.is_some_and(|t| (k.time - t).abs() < REPLACES_REACH);
+                    !(near || replaced) || k.origin == Origin::Pause && !near
+                });
+            }
+        }
+        keys.extend(own);
+        keys.sort_by(|a, b| a.time.total_cmp(&b.time));
+        corners_of_n(&mut keys);
+        let mut points = Vec::with_capacity(2 * keys.len());
+        for key in &keys {
+            points.push((key.time, key.pose.to_array(), if key.until > key.time { Ease::Smooth } else { key.ease }));
+            if key.until > key.time {
+                points.push((key.until, key.pose.to_array(), key.ease));
+            }
+        }
+        if let Some(tracks) = sources.tracks
+            && keys.is_empty()
+        {
+            points = tracks.rows.iter().map(|r| (r.time, of_track(r).to_array(), Ease::Linear)).collect();
+        }
+        Self { keys, curve: Curve::new(points), tracked }
+    }
+
+    pub(super) fn at(&self, t: f64) -> (MouthPose, Option<MouthShape>) {
+        let pose = self.curve.at(t).map_or(MouthPose::REST, MouthPose::from_array);
+        if self.tracked && self.keys.is_empty() {
+            return (pose, None);
+        }
+        // The shape whose hold is nearest in time.
+        let after = self.keys.partition_point(|k| k.time <= t);
+        let (before, next) = (after.checked_sub(1).and_then(|i| self.keys.get(i)), self.keys.get(after));
+        let shape = match (before, next) {
+            (Some(a), Some(b)) if b.time - t < t - a.until => b.shape,
+            (Some(a), _) => a.shape,
+            (None, Some(b)) => b.shape,
+            (None, None) => None,
+        };
+        (pose, shape)
+    }
+
+    pub(super) fn keys(&self) -> &[MouthKey] {
+        &self.keys
+    }
+}
+
+/// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`).
+fn of_track(row: &crate::emotion::TrackRow) -> MouthPose {
+    MouthPose {
+        upper: -row.mouth_up,
+        lower: row.mouth_down,
+        corner_in: -f64::midpoint(row.mouth_left, row.mouth_right),
+        speaking: 1.0,
+        ..MouthPose::REST
+    }
+}
+
+/// The keys of what is said, rest before, between and after.
+fn of_speech(spoken: &[Spoken], frame: f64, preset: MouthPreset) -> Vec<MouthKey> {
+    let mut keys: Vec<MouthKey> = Vec::new();
+    let rest = |time: f64, until: f64| MouthKey {
+        time,
+        until,
+        shape: None,
+        pose: MouthPose::REST,
+        origin: Origin::Pause,
+        ease: Ease::Smooth,
+    };
+    let said: Vec<(usize, &Spoken)> = spoken.iter().enumerate().filter(|(_, s)| !s.shapes.is_empty()).collect();
+    for (place, (number, syllable)) in said.iter().enumerate() {
+        let previous = place.checked_sub(1).map(|i| said[i].1);
+        let next = said.get(place + 1).map(|s| s.1);
+        let gap = previous.map_or(f64::INFINITY, |p| syllable.start - p.end);
+        if gap > BREATH {
+            let from = previous.map_or(0.0, |p| p.end + RELEASE.min(gap / 2.0));
+            let until = syllable.start - PREPARE.min(gap / 2.0);
+            if until >= 0.0 {
+                keys.push(rest(from.min(until), until));
+            }
+        }
+        let length = syllable.end - syllable.start;
+        for (i, (share, shape)) in syllable.shapes.iter().enumerate() {
+            let start = syllable.start + share * length;
+            let leaves = match (syllable.shapes.get(i + 1), next) {
+                (Some((share, _)), _) => syllable.start + share * length,
+                (None, Some(next)) if next.start - syllable.end <= BREATH => next.start,
+                (None, _) => syllable.end,
+            };
+            let slot = leaves - start;
+            let travel = TRAVEL.min(0.6 * slot.max(0.0));
+            let last = i + 1 == syllable.shapes.len() && leaves == syllable.end;
+            let until = if shape.closes() {
+                start + CLOSURE.min(0.4 * slot).max(frame)
+            } else if last {
+                leaves
+            } else {
+                leaves - travel
+            };
+            keys.push(MouthKey {
+                time: start,
+                until: until.max(start),
+                shape: Some(*shape),
+                pose: MouthPose::of(*shape, preset),
+                origin: Origin::Speech(*number),
+                ease: Ease::Smooth,
+            });
+        }
+    }
+    if let Some((_, last)) = said.last() {
+        keys.push(rest(last.end + RELEASE, last.end + RELEASE));
+    }
+    make_room(&mut keys, frame);
+    corners_of_n(&mut keys);
+    give_way(&mut keys);
+    keys
+}
+
+/// Orders the holds: closures keep theirs, the others yield to what comes before and after. What is left with no
+/// time at all goes.
+fn make_room(keys: &mut Vec<MouthKey>, frame: f64) {
+    let closes = |k: &MouthKey| k.shape.is_some_and(MouthShape::closes);
+    for i in 1..keys.len() {
+        let (before, key) = (keys[i - 1], keys[i]);
+        if before.until > key.time {
+            // Only a closure of a very short syllable reaches beyond its own slot.
+            if closes(&before) && !closes(&key) {
+                keys[i].time = before.until + 0.5 * frame;
+                keys[i].until = keys[i].until.max(keys[i].time);
+            } else {
+                keys[i - 1].until = key.time.max(before.time);
+            }
+        }
+    }
+    let crowded = |a: &MouthKey, b: &MouthKey| b.time <= a.until && !closes(b);
+    let mut kept: Vec<MouthKey> = Vec::with_capacity(keys.len());
+    for key in keys.drain(..) {
+        // A vowel that falls inside a neighbour's closure is not seen.
+        if kept.last().is_some_and(|last| crowded(last, &key) && closes(last)) {
+            continue;
+        }
+        while kept.last().is_some_and(|last| !closes(last) && last.time >= key.time) {
+            kept.pop();
+        }
+        kept.push(key);
+    }
+    *keys = kept;
+}
+
+/// *n* keeps the corners of the shape before it, the neutral ones at the start of an utterance (thesis 5.2.3).
+fn corners_of_n(keys: &mut [MouthKey]) {
+    for i in 1..keys.len() {
+        if keys[i].shape == Some(MouthShape::N) && keys[i - 1].shape.is_some() {
+            keys[i].pose = keys[i].pose.with_corners_of(&keys[i - 1].pose);
+        }
+    }
+}
+
+/// Coarticulation: a target with little time is reached in part, the rest being what lies between its neighbours.
+fn give_way(keys: &mut [MouthKey]) {
+    let full: Vec<MouthKey> = keys.to_vec();
+    for i in 1..keys.len().saturating_sub(1) {
+        let (before, key, after) = (&full[i - 1], &full[i], &full[i + 1]);
+        let shape_is_open = key.shape.is_some_and(|s| !s.closes());
+        if !shape_is_open || before.shape.is_none() && after.shape.is_none() {
+            continue;
+        }
+        let room = after.time - before.until;
+        let reached = (room / (2.0 * FULL_TARGET)).clamp(LEAST_TARGET, 1.0);
+        if reached < 1.0 {
+            let between = before.pose.lerp(&after.pose, 0.5);
+            let mut pose = between.lerp(&key.pose, reached);
+            // In part is still open: a neighbour's closure must not spread.
+            pose.closure = 0.0;
+            pose.bite *= reached;
+            pose.speaking = 1.0;
+            keys[i].pose = pose;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Key, Score, Timeline};
+    use super::*;
+    use proptest::prelude::*;
+
+    fn timeline(spoken: &[Spoken], fps: f64, score: &Score) -> Timeline {
+        let duration = spoken.last().map_or(1.0, |s| s.end + 0.5);
+        Timeline::build(&Sources {
+            duration,
+            fps,
+            spoken,
+            record: None,
+            tracks: None,
+            score,
+            mouths: MouthPreset::Distinct,
+        })
+    }
+
+    fn ba(start: f64, length: f64) -> Spoken {
+        Spoken { start, end: start + length, shapes: vec![(0.0, MouthShape::M), (0.464, MouthShape::A)] }
+    }
+
+    #[test]
+    fn a_mouth_rests_before_and_after_and_opens_in_between() {
+        let line = timeline(&[ba(0.5, 0.3)], 25.0, &Score::default());
+        assert_eq!(line.mouth(0.2).0, MouthPose::REST);
+        assert_eq!(line.mouth(0.5).0.closure, 1.0);
+        assert!(line.mouth(0.7).0.opening() > 1.0);
+        assert_eq!(line.mouth(1.2).0, MouthPose::REST);
+    }
+
+    #[test]
+    fn an_author_s_key_wins_over_speech() {
+        let mut score = Score::default();
+        score.keys.push(Key::new(0.66, KeyValue::Mouth(Some(MouthShape::U))));
+        let line = timeline(&[ba(0.5, 0.3)], 25.0, &score);
+        assert_eq!(line.mouth(0.66).1, Some(MouthShape::U));
+        assert!(line.mouth(0.66).0.corner_in > 0.2);
+    }
+
+    #[test]
+    fn n_keeps_the_corners_of_the_shape_before_it() {
+        let yin = Spoken { start: 0.3, end: 0.7, shapes: vec![(0.0, MouthShape::I), (0.6, MouthShape::N)] };
+        let line = timeline(&[yin], 25.0, &Score::default());
+        let keys = line.mouth_keys();
+        let n = keys.iter().find(|k| k.shape == Some(MouthShape::N)).unwrap();
+        assert_eq!(n.pose.corner_in, MouthPose::of(MouthShape::I, MouthPreset::Distinct).corner_in);
+    }
+
+    proptest! {
+        #[test]
+        fn however_fast_the_speech_every_closure_shows_in_a_frame(
+            lengths in prop::collection::vec(0.05..0.4f64, 1..12),
+            fps in prop::sample::select(vec![12.0, 24.0, 25.0, 30.0, 60.0]),
+        ) {
+            let mut t = 0.3;
+            let spoken: Vec<Spoken> = lengths.iter().map(|l| { t += l; ba(t - l, *l) }).collect();
+            let line = timeline(&spoken, fps, &Score::default());
+            for s in &spoken {
+                let frames = (0..line.frames()).map(|k| line.time_of(k));
+                let closed = frames
+                    .filter(|t| (*t - s.start).abs() <= 1.0 / fps + 0.04)
+                    .any(|t| line.mouth(t).0.opening() <= 0.03);
+                prop_assert!(closed, "syllable at {} at {fps} fps", s.start);
+            }
+        }
+
+        #[test]
+        fn fast_vowels_open_less_than_slow_ones(length in 0.06..0.12f64) {
+            let word = |length: f64| -> Vec<Spoken> { (0..6).map(|i| ba(0.3 + f64::from(i) * length, length)).collect() };
+            let widest = |spoken: &[Spoken]| {
+                let line = timeline(spoken, 25.0, &Score::default());
+                (30..100).map(|i| line.mouth(f64::from(i) * 0.01).0.opening()).fold(0.0, f64::max)
+            };
+            prop_assert!(widest(&word(length)) < widest(&word(0.4)));
+        }
+    }
+}
