@@ -7,4 +7,5 @@
 
 pub mod cli;
 pub mod disk;
+pub mod emotion;
 pub mod pose;
