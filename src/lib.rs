@@ -9,3 +9,4 @@ pub mod cli;
 pub mod disk;
 pub mod emotion;
 pub mod pose;
+pub mod timing;
