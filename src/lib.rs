@@ -9,6 +9,8 @@ pub mod geometry;
 pub mod pose;
 pub mod drawing;
 pub mod disk;
+pub mod emotion;
+pub mod timing;
 pub mod timeline;
 pub mod figure;
 pub mod render;

@@ -1,0 +1,138 @@
+//! Times as a table: `tier,start,end,label`, quoted as RFC 4180 says.
+//!
+//! A row without a label is silence. One is written where a tier ends before the recording does, so that neither the
+//! duration nor a tier without labels is lost.
+
+use super::Timing;
+use super::clock::seconds;
+use super::layer::Layer;
+use super::tiers::{MAX_TIERS, too_many_tiers};
+use crate::disk::{Fault, Result};
+
+const COLUMNS: [&str; 4] = ["tier", "start", "end", "label"];
+
+/// Whether a first line is this table's header.
+pub(super) fn is_header(line: &str) -> bool {
+    let names: Vec<&str> = line.split(',').map(|n| n.trim().trim_matches('"')).collect();
+    COLUMNS.iter().all(|c| names.iter().any(|n| n.eq_ignore_ascii_case(c)))
+}
+
+pub(super) fn parse(text: &str) -> Result<Timing> {
+    let mut records = records(text)?.into_iter();
+    let header_fault = |fault: Fault| fault.help("the first line must be `tier,start,end,label`");
+    let Some((line, header)) = records.next() else {
+        return Err(header_fault(Fault::new("the file is empty")));
+    };
+    let mut places = [0; 4];
+    for (place, column) in places.iter_mut().zip(COLUMNS) {
+        *place = header
+            .iter()
+            .position(|name| name.trim().eq_ignore_ascii_case(column))
+            .ok_or_else(|| header_fault(Fault::new(format!("the column `{column}` is missing")).line(line)))?;
+    }
+    // Rows may come by tier or by time: they are gathered by tier and put in order before they are laid.
+    let mut tiers: Vec<(String, Vec<(usize, f64, f64, String)>)> = Vec::new();
+    for (line, record) in records {
+        if record.len() != header.len() {
+            return Err(Fault::new(format!("the row has {} values, the header {}", record.len(), header.len()))
+                .line(line)
+                .help("a label with a comma or a line break must stand in double quotes"));
+        }
+        let number = |at: usize| {
+            let found = record[places[at]].trim();
+            found.parse::<f64>().ok().filter(|n| n.is_finite()).ok_or_else(|| {
+                Fault::new(format!("`{found}` in the column `{}` is no finite number", COLUMNS[at]))
+                    .line(line)
+                    .help("write seconds with digits and a point, such as 1.25")
+            })
+        };
+        let row = (line, number(1)?, number(2)?, record[places[3]].clone());
+        let name = record[places[0]].trim();
+        match tiers.iter().position(|(n, _)| n == name) {
+            Some(at) => tiers[at].1.push(row),
+            None if tiers.len() >= MAX_TIERS => return Err(too_many_tiers().line(line)),
+            None => tiers.push((name.to_owned(), vec![row])),
+        }
+    }
+    let mut timing = Timing::default();
+    for (name, mut rows) in tiers {
+        rows.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
+        let mut layer = Layer::new(&name);
+        for (line, start, end, label) in rows {
+            layer.lay(start, end, &label).map_err(|fault| fault.line(line))?;
+        }
+        let (tier, until) = layer.done();
+        timing.add_read(tier, until)?;
+    }
+    Ok(timing)
+}
+
+pub(super) fn write(timing: &Timing) -> String {
+    let mut text = COLUMNS.join(",");
+    text.push('\n');
+    let mut row = |name: &str, start: f64, end: f64, label: &str| {
+        text.push_str(&[&quoted(name), &seconds(start), &seconds(end), &quoted(label)].map(String::as_str).join(","));
+        text.push('\n');
+    };
+    for tier in &timing.tiers {
+        for i in &tier.intervals {
+            row(&tier.name, i.start, i.end, &i.label);
+        }
+        if tier.intervals.is_empty() || tier.end() < timing.duration {
+            row(&tier.name, tier.end(), timing.duration.max(tier.end()), "");
+        }
+    }
+    text
+}
+
+/// A field in quotes where it needs them: quotes, commas, line breaks, and blanks at its ends.
+fn quoted(field: &str) -> String {
+    if field.contains(['"', ',', '\n', '\r']) || field != field.trim() {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+/// The records of an RFC 4180 text, each with the line it begins on. Empty lines are passed over.
+fn records(text: &str) -> Result<Vec<(usize, Vec<String>)>> {
+    let (mut records, mut record, mut field) = (Vec::new(), Vec::new(), String::new());
+    let (mut line, mut began, mut quote) = (1, 1, None);
+    let mut was_quoted = false;
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
+        line += usize::from(c == '\n');
+        match (quote, c) {
+            (Some(_), '"') if chars.next_if_eq(&'"').is_some() => field.push('"'),
+            (Some(_), '"') => quote = None,
+            (Some(_), c) => field.push(c),
+            (None, '"') if field.trim().is_empty() && !was_quoted => {
+                field.clear();
+                (quote, was_quoted) = (Some(line), true);
+            }
+            (None, ',') => {
+                record.push(std::mem::take(&mut field));
+                was_quoted = false;
+            }
+            (None, '\n') => {
+                if !(record.is_empty() && field.trim().is_empty() && !was_quoted) {
+                    record.push(std::mem::take(&mut field));
+                    records.push((began, std::mem::take(&mut record)));
+                }
+                field.clear();
+                (began, was_quoted) = (line, false);
+            }
+            (None, c) => field.push(c),
+        }
+    }
+    if let Some(opened) = quote {
+        return Err(Fault::new("the file ends inside a label in quotes")
+            .line(opened)
+            .help("the quote opened here is never closed; a quote inside a label is written twice"));
+    }
+    if !record.is_empty() || !field.trim().is_empty() || was_quoted {
+        record.push(field);
+        records.push((began, record));
+    }
+    Ok(records)
+}
