@@ -67,17 +67,17 @@ impl Timeline {
                 KeyValue::Gaze(g) => Some((k.time, [g.x, g.y], k.ease)),
                 _ => None,
             }),
-            &tracked(|r| vec![r.gaze_x, r.gaze_y]),
+            &tracked(|r| vec![r.gaze.x, r.gaze.y]),
         );
         let head = author_or_tracked(
             score.keys.iter().filter_map(|k| match k.value {
                 KeyValue::Head(h) => Some((k.time, [h.x, h.y, h.roll], k.ease)),
                 _ => None,
             }),
-            &tracked(|r| vec![r.head_x, r.head_y, r.head_roll]),
+            &tracked(|r| vec![r.head.x, r.head.y, r.head.roll]),
         );
         // A video has the blinks of its speaker, so none are made up.
-        let lids = author_or_tracked(std::iter::empty(), &tracked(|r| vec![r.lid_left, r.lid_right]));
+        let lids = author_or_tracked(std::iter::empty(), &tracked(|r| vec![r.lids.left, r.lids.right]));
         let blinks = blink::blinks(score, sources.duration, sources.tracks.is_none());
         Self {
             duration: sources.duration.max(0.0),

@@ -149,9 +149,9 @@ impl MouthTrack {
 /// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`).
 fn of_track(row: &crate::emotion::TrackRow) -> MouthPose {
     MouthPose {
-        upper: -row.mouth_up,
-        lower: row.mouth_down,
-        corner_in: -f64::midpoint(row.mouth_left, row.mouth_right),
+        upper: -row.mouth.up,
+        lower: row.mouth.down,
+        corner_in: -f64::midpoint(row.mouth.left, row.mouth.right),
         speaking: 1.0,
         ..MouthPose::REST
     }

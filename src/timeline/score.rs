@@ -303,8 +303,7 @@ impl FileKey {
                 KeyValue::Gaze(Gaze { x, y })
             }
             (Track::Head, Some(v)) => {
-                let [x, y, roll] =
-                    numbers(v).ok_or_else(|| wrong(v, "[x, y, roll] in pupil distances and degrees"))?;
+                let [x, y, roll] = numbers(v).ok_or_else(|| wrong(v, "[x, y, roll] in pupil distances and degrees"))?;
                 KeyValue::Head(Head { x, y, roll })
             }
             (track, Some(v)) => {
@@ -328,7 +327,9 @@ impl FileRange {
         checked_time(self.from, "from")?;
         checked_time(self.to, "to")?;
         if self.to <= self.from {
-            return Err(Fault::new(format!("a range runs from {} to {}", self.from, self.to)).help("end it after its start"));
+            return Err(
+                Fault::new(format!("a range runs from {} to {}", self.from, self.to)).help("end it after its start")
+            );
         }
         if !(0.0..=10.0).contains(&self.smooth) {
             return Err(Fault::new(format!("`smooth` is {}", self.smooth)).help("give seconds from 0 to 10"));

@@ -20,13 +20,7 @@ pub fn smooth_keeping_peaks(times: &[f64], values: &[f64], width: f64) -> Vec<f6
 }
 
 /// The value at sample `i` of the parabola fitted to the samples `near`; the sample itself where they are too few.
-fn local_parabola(
-    times: &[f64],
-    values: &[f64],
-    i: usize,
-    near: impl Iterator<Item = usize>,
-    width: f64,
-) -> f64 {
+fn local_parabola(times: &[f64], values: &[f64], i: usize, near: impl Iterator<Item = usize>, width: f64) -> f64 {
     // Normal equations in u = (t − tᵢ) / width; the wanted value is the constant term.
     let (mut s, mut y, mut count) = ([0.0; 5], [0.0; 3], 0);
     for j in near {
@@ -63,7 +57,9 @@ mod tests {
     fn noise_goes_and_a_peak_keeps_its_height() {
         let times: Vec<f64> = (0..250).map(|i| f64::from(i) / 25.0).collect();
         // A smile of 0.6 s on a flat face, and noise of ± 0.05 that alternates in a fixed, uneven way.
-        let smile = |t: f64| if (t - 5.0).abs() < 0.3 { 0.5 + 0.5 * ((t - 5.0) * std::f64::consts::PI / 0.3).cos() } else { 0.0 };
+        let smile = |t: f64| {
+            if (t - 5.0).abs() < 0.3 { 0.5 + 0.5 * ((t - 5.0) * std::f64::consts::PI / 0.3).cos() } else { 0.0 }
+        };
         let noise = |i: usize| 0.05 * (((i * 7919) % 13) as f64 / 6.0 - 1.0);
         let noisy: Vec<f64> = times.iter().enumerate().map(|(i, t)| smile(*t) + noise(i)).collect();
         let out = smooth_keeping_peaks(&times, &noisy, 0.24);
