@@ -134,6 +134,8 @@ pub struct Score {
     pub markers: Vec<Marker>,
     /// Syllables (by number, from 0) whose boundaries she set: a new alignment keeps them.
     pub pins: Vec<usize>,
+    /// Whether the times of the syllables that are not pinned are guesses.
+    pub guessed: bool,
     /// Seed of what is random.
     pub seed: u64,
     /// Whether blinks are made up between her own.
@@ -142,7 +144,7 @@ pub struct Score {
 
 impl Default for Score {
     fn default() -> Self {
-        Self { keys: Vec::new(), ranges: Vec::new(), markers: Vec::new(), pins: Vec::new(), seed: 1, auto_blink: true }
+        Self { keys: Vec::new(), ranges: Vec::new(), markers: Vec::new(), pins: Vec::new(), guessed: false, seed: 1, auto_blink: true }
     }
 }
 
@@ -162,6 +164,9 @@ impl Score {
         let file: File = from_toml(text)?;
         let line_of = |span: std::ops::Range<usize>| 1 + text[..span.start.min(text.len())].matches('\n').count();
         let mut score = Self { seed: file.seed, auto_blink: file.auto_blink, pins: file.pins, ..Self::default() };
+        score.pins.sort_unstable();
+        score.pins.dedup();
+        score.guessed = file.guessed;
         for key in file.keys {
             let line = line_of(key.span());
             score.keys.push(key.into_inner().read().map_err(|f| f.line(line))?);
@@ -191,6 +196,9 @@ impl Score {
         }
         if !self.pins.is_empty() {
             let _ = writeln!(out, "pins = {:?}", self.pins);
+        }
+        if self.guessed {
+            out.push_str("guessed = true\n");
         }
         for key in self.sorted_keys() {
             let _ = write!(out, "\n[[key]]\ntrack = \"{}\"\ntime = {}\n", name_of(key.value.track()), Float(key.time));
@@ -233,6 +241,8 @@ struct File {
     auto_blink: bool,
     #[serde(default)]
     pins: Vec<usize>,
+    #[serde(default)]
+    guessed: bool,
     #[serde(default, rename = "key")]
     keys: Vec<toml::Spanned<FileKey>>,
     #[serde(default, rename = "range")]

@@ -1,0 +1,231 @@
+//! Changes: lists of edits, each with its inverse. Undo, redo, the journal and every editor use this one list.
+
+use serde::{Deserialize, Serialize};
+
+use super::Clip;
+use crate::disk::{Fault, Result};
+use crate::timeline::{Key, Marker, Range};
+
+/// Something an author did, in one step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Change {
+    /// What was done, in a few words.
+    pub label: String,
+    /// What it changes, in order.
+    pub edits: Vec<Edit>,
+}
+
+/// The smallest change: it says what was and what is to be, so that it can be turned round.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Edit {
+    /// Start and end of neighbouring syllables, in seconds.
+    Times {
+        /// Number of the clip.
+        clip: usize,
+        /// Number of the first syllable.
+        first: usize,
+        /// As it was.
+        before: Vec<(f64, f64)>,
+        /// As it is to be.
+        after: Vec<(f64, f64)>,
+    },
+    /// A syllable's label: its text, or text and reading as `行{hang2}`.
+    Label {
+        /// Number of the clip.
+        clip: usize,
+        /// Number of the syllable.
+        index: usize,
+        /// As it was.
+        before: String,
+        /// As it is to be.
+        after: String,
+    },
+    /// Whether the author vouches for a syllable's times.
+    Pin {
+        /// Number of the clip.
+        clip: usize,
+        /// Number of the syllable.
+        index: usize,
+        /// As it is to be; it was the other.
+        pinned: bool,
+    },
+    /// A key more.
+    AddKey {
+        /// Number of the clip.
+        clip: usize,
+        /// The key.
+        key: Key,
+    },
+    /// A key less.
+    RemoveKey {
+        /// Number of the clip.
+        clip: usize,
+        /// The key.
+        key: Key,
+    },
+    /// A range edit more.
+    AddRange {
+        /// Number of the clip.
+        clip: usize,
+        /// Its place in the list.
+        at: usize,
+        /// The range edit.
+        range: Range,
+    },
+    /// A range edit less.
+    RemoveRange {
+        /// Number of the clip.
+        clip: usize,
+        /// Its place in the list.
+        at: usize,
+        /// The range edit.
+        range: Range,
+    },
+    /// A marker more.
+    AddMarker {
+        /// Number of the clip.
+        clip: usize,
+        /// The marker.
+        marker: Marker,
+    },
+    /// A marker less.
+    RemoveMarker {
+        /// Number of the clip.
+        clip: usize,
+        /// The marker.
+        marker: Marker,
+    },
+}
+
+impl Change {
+    /// A change of one edit.
+    #[must_use]
+    pub fn one(label: impl Into<String>, edit: Edit) -> Self {
+        Self { label: label.into(), edits: vec![edit] }
+    }
+
+    /// What takes it back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        Self { label: self.label.clone(), edits: self.edits.iter().rev().map(Edit::inverse).collect() }
+    }
+}
+
+impl Edit {
+    /// What takes it back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        match self.clone() {
+            Self::Times { clip, first, before, after } => Self::Times { clip, first, before: after, after: before },
+            Self::Label { clip, index, before, after } => Self::Label { clip, index, before: after, after: before },
+            Self::Pin { clip, index, pinned } => Self::Pin { clip, index, pinned: !pinned },
+            Self::AddKey { clip, key } => Self::RemoveKey { clip, key },
+            Self::RemoveKey { clip, key } => Self::AddKey { clip, key },
+            Self::AddRange { clip, at, range } => Self::RemoveRange { clip, at, range },
+            Self::RemoveRange { clip, at, range } => Self::AddRange { clip, at, range },
+            Self::AddMarker { clip, marker } => Self::RemoveMarker { clip, marker },
+            Self::RemoveMarker { clip, marker } => Self::AddMarker { clip, marker },
+        }
+    }
+
+    /// Makes the edit. What it says was must be what is.
+    pub(super) fn apply(&self, clips: &mut [Clip]) -> Result<()> {
+        match self {
+            Self::Times { clip, first, before, after } => set_times(clip_of(clips, *clip)?, *first, before, after),
+            Self::Label { clip, index, before, after } => {
+                let clip = clip_of(clips, *clip)?;
+                let label = clip
+                    .timing
+                    .tier_mut("syllables")
+                    .and_then(|t| t.intervals.get_mut(*index))
+                    .map(|i| &mut i.label)
+                    .filter(|l| *l == before)
+                    .ok_or_else(stale)?;
+                label.clone_from(after);
+                clip.read_labels();
+                Ok(())
+            }
+            Self::Pin { clip, index, pinned } => {
+                let pins = &mut clip_of(clips, *clip)?.score.pins;
+                match (pins.binary_search(index), pinned) {
+                    (Err(place), true) => pins.insert(place, *index),
+                    (Ok(place), false) => {
+                        pins.remove(place);
+                    }
+                    _ => return Err(stale()),
+                }
+                Ok(())
+            }
+            Self::AddKey { clip, key } => {
+                if !(key.time.is_finite() && key.time >= 0.0) {
+                    return Err(Fault::new(format!("a key cannot be at {} s", key.time)).help("give a time from 0 on"));
+                }
+                clip_of(clips, *clip)?.score.keys.push(*key);
+                Ok(())
+            }
+            Self::RemoveKey { clip, key } => remove(&mut clip_of(clips, *clip)?.score.keys, key),
+            Self::AddRange { clip, at, range } => {
+                let ranges = &mut clip_of(clips, *clip)?.score.ranges;
+                if *at > ranges.len() {
+                    return Err(stale());
+                }
+                ranges.insert(*at, *range);
+                Ok(())
+            }
+            Self::RemoveRange { clip, at, range } => {
+                let ranges = &mut clip_of(clips, *clip)?.score.ranges;
+                if ranges.get(*at) != Some(range) {
+                    return Err(stale());
+                }
+                ranges.remove(*at);
+                Ok(())
+            }
+            Self::AddMarker { clip, marker } => {
+                clip_of(clips, *clip)?.score.markers.push(marker.clone());
+                Ok(())
+            }
+            Self::RemoveMarker { clip, marker } => remove(&mut clip_of(clips, *clip)?.score.markers, marker),
+        }
+    }
+}
+
+fn clip_of(clips: &mut [Clip], clip: usize) -> Result<&mut Clip> {
+    clips.get_mut(clip).ok_or_else(stale)
+}
+
+fn stale() -> Fault {
+    Fault::new("the change does not fit the lesson as it is now").help("the files were changed by other means")
+}
+
+fn remove<T: PartialEq>(list: &mut Vec<T>, item: &T) -> Result<()> {
+    // The last one: adding puts it there, so that undoing leaves the list as it was.
+    let place = list.iter().rposition(|i| i == item).ok_or_else(stale)?;
+    list.remove(place);
+    Ok(())
+}
+
+/// Sets times that stay in order: no syllable ends before it starts or overlaps its neighbour.
+fn set_times(clip: &mut Clip, first: usize, before: &[(f64, f64)], after: &[(f64, f64)]) -> Result<()> {
+    let duration = clip.duration();
+    let Some(tier) = clip.timing.tier_mut("syllables") else { return Err(stale()) };
+    let end = first + before.len();
+    let now = tier.intervals.get(first..end).filter(|_| before.len() == after.len()).ok_or_else(stale)?;
+    if now.iter().zip(before).any(|(i, b)| (i.start, i.end) != *b) {
+        return Err(stale());
+    }
+    let left = first.checked_sub(1).and_then(|i| tier.intervals.get(i)).map_or(0.0, |i| i.end);
+    let right = tier.intervals.get(end).map_or(duration, |i| i.start);
+    let mut edge = left;
+    for (start, end) in after {
+        if !(start.is_finite() && end.is_finite() && *start >= edge - 1e-9 && end > start && *end <= right + 1e-9) {
+            return Err(Fault::new(format!("a syllable cannot last from {start:.3} to {end:.3} s"))
+                .help(format!("there is room from {left:.3} to {right:.3} s")));
+        }
+        edge = *end;
+    }
+    for (interval, (start, end)) in tier.intervals[first..end].iter_mut().zip(after) {
+        (interval.start, interval.end) = (*start, *end);
+    }
+    Ok(())
+}

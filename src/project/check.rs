@@ -1,0 +1,104 @@
+//! What a lesson has, what it lacks, and what is wrong with it.
+
+use std::path::Path;
+
+use super::{Clip, Lesson, MANIFEST, Manifest};
+use crate::disk::Fault;
+use crate::timeline::KeyValue;
+
+/// One thing that a check found.
+#[derive(Debug)]
+pub enum Finding {
+    /// It is there.
+    Fine(String),
+    /// It is not there, or odd, and the lesson works all the same.
+    Odd(String),
+    /// The lesson, or this part of it, cannot be used.
+    Wrong(Fault),
+}
+
+/// Checks the lesson in `root`, every clip for itself, so that one damaged file does not hide the rest.
+#[must_use]
+pub fn check(root: &Path) -> Vec<Finding> {
+    let manifest = match Manifest::read(root) {
+        Ok(manifest) => manifest,
+        Err(fault) => return vec![Finding::Wrong(fault)],
+    };
+    let mut found = vec![Finding::Fine(format!(
+        "{}: “{}”, {} at {} frames a second, {} × {}",
+        MANIFEST,
+        manifest.title,
+        counted(manifest.clips.len(), "clip"),
+        manifest.output.fps,
+        manifest.output.size[0],
+        manifest.output.size[1]
+    ))];
+    if manifest.clips.is_empty() {
+        found.push(Finding::Odd("there are no clips yet: add a [[clip]]".into()));
+    }
+    for entry in &manifest.clips {
+        match Clip::read(root, entry) {
+            Ok(clip) => found.extend(of_clip(&clip)),
+            Err(fault) => found.push(Finding::Wrong(fault)),
+        }
+    }
+    // Figures are found through a lesson that has no damaged clips in the way.
+    let bare = Lesson {
+        root: root.to_owned(),
+        clips: Vec::new(),
+        read_only: None,
+        recovered: 0,
+        history: super::History::default(),
+        journal: None,
+        lock: None,
+        manifest,
+    };
+    for face in &bare.manifest.faces {
+        let of = bare.manifest.clips.iter().find(|c| bare.manifest.face_of(c) == Some(face));
+        if let Some(Err(fault)) = of.map(|clip| bare.figure_of(clip)) {
+            found.push(Finding::Wrong(fault));
+        }
+    }
+    found
+}
+
+fn of_clip(clip: &Clip) -> Vec<Finding> {
+    let name = &clip.entry.name;
+    let mut parts = vec![format!("{:.2} s", clip.duration())];
+    parts.push(match &clip.sound {
+        Some(sound) => format!("sound at {} Hz", sound.rate),
+        None => "no sound".into(),
+    });
+    if !clip.syllables.is_empty() {
+        parts.push(counted(clip.syllables.len(), "syllable"));
+    }
+    if let Some(record) = &clip.record {
+        parts.push(counted(record.rows.len(), "row of ratios").replace("row of ratioss", "rows of ratios"));
+    }
+    let keys = clip.score.keys.len();
+    if keys > 0 {
+        parts.push(counted(keys, "key"));
+    }
+    let mut found = vec![Finding::Fine(format!("clip {name}: {}", parts.join(", ")))];
+    let odd = |text: String| Finding::Odd(format!("clip {name}: {text}"));
+    if clip.timing.guessed && !clip.syllables.is_empty() {
+        found.push(odd("the syllables' times are guessed; set them in the studio".into()));
+    }
+    if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
+        found.push(odd("there is sound and no script, so the mouth stays shut".into()));
+    }
+    found.extend(clip.warnings.iter().map(|w| odd(w.clone())));
+    let end = clip.duration();
+    let late = clip.score.keys.iter().filter(|k| k.time > end + 1e-6 && !matches!(k.value, KeyValue::Emotion(_))).count();
+    if late > 0 {
+        found.push(odd(format!("{} after its end", counted(late, "key"))));
+    }
+    if let Some(over) = clip.intervals().iter().find(|i| i.end > end + 0.05) {
+        found.push(odd(format!("`{}` ends at {:.2} s, after the sound", over.label, over.end)));
+    }
+    found
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}

@@ -1,0 +1,280 @@
+//! A clip: what is said, when, with which emotions, and what its author set.
+
+use std::path::{Path, PathBuf};
+
+use super::manifest::ClipEntry;
+use crate::disk::{Fault, Result, inside, read_text};
+use crate::emotion::{Record, Tracks};
+use crate::pose::MouthPreset;
+use crate::script::{self, OnsetPreset, Syllable, System};
+use crate::speech::Sound;
+use crate::timeline::{Score, Sources, Spoken, Timeline};
+use crate::timing::{self, Interval, Tier, Timing};
+
+/// The longest label that is kept, in characters.
+pub const LABEL_LIMIT: usize = 100;
+
+/// A clip in memory. Edits change `timing` and `score`; the rest is as the files have it.
+#[derive(Debug, Clone)]
+pub struct Clip {
+    /// Its entry in the manifest.
+    pub entry: ClipEntry,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// What is said, as written; empty without a script.
+    pub script: String,
+    /// The script's syllables, readings of the timing's labels included.
+    pub syllables: Vec<Syllable>,
+    /// When they are said: one interval of the tier `syllables` each.
+    pub timing: Timing,
+    /// The recording.
+    pub sound: Option<Sound>,
+    /// Where the recording is.
+    pub sound_path: Option<PathBuf>,
+    /// The ratio record.
+    pub record: Option<Record>,
+    /// Eyes, mouth and head from a video.
+    pub tracks: Option<Tracks>,
+    /// What the author set.
+    pub score: Score,
+    /// What is odd but not wrong, for the author to know.
+    pub warnings: Vec<String>,
+    /// The script's own syllables, before labels gave other readings.
+    plain: Vec<Syllable>,
+    /// Length of the sound in seconds, 0 without one.
+    sound_seconds: f64,
+}
+
+impl Clip {
+    /// Reads a clip of the project in `root`.
+    ///
+    /// # Errors
+    /// When one of its files is damaged, or the times do not fit the script.
+    pub fn read(root: &Path, entry: &ClipEntry) -> Result<Self> {
+        let folder = inside(root, &format!("clips/{}", entry.name))?;
+        if !folder.is_dir() {
+            return Err(Fault::new(format!("the clip `{}` has no folder", entry.name))
+                .at(&folder)
+                .help("make the folder with a script.txt and a speech.wav, or take the clip out of lianpu.toml"));
+        }
+        let file = |name: &str| -> Result<Option<PathBuf>> {
+            let path = inside(root, &format!("clips/{}/{name}", entry.name))?;
+            Ok(path.is_file().then_some(path))
+        };
+        let text = |name: &str| -> Result<Option<(PathBuf, String)>> {
+            file(name)?.map(|path| read_text(&path).map(|text| (path, text))).transpose()
+        };
+        let mut clip = Self {
+            entry: entry.clone(),
+            folder: folder.clone(),
+            script: String::new(),
+            syllables: Vec::new(),
+            timing: Timing::default(),
+            sound: None,
+            sound_path: sound_file(&folder)?,
+            record: None,
+            tracks: None,
+            score: Score::default(),
+            warnings: Vec::new(),
+            plain: Vec::new(),
+            sound_seconds: 0.0,
+        };
+        if let Some((path, script)) = text("script.txt")? {
+            let system = entry.script_system.unwrap_or(System::Auto);
+            clip.plain = script::syllables(&script, system).map_err(|f| f.at(&path))?;
+            clip.script = script;
+        }
+        if let Some(path) = &clip.sound_path {
+            let sound = Sound::read(path)?;
+            clip.warnings.extend(sound.warnings.iter().cloned());
+            clip.sound_seconds = sound.duration();
+            clip.sound = Some(sound);
+        }
+        if let Some((path, text)) = text("ratios.csv")? {
+            clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
+        }
+        if let Some((path, text)) = text("tracks.csv")? {
+            clip.tracks = Some(Tracks::parse(&text).map_err(|f| f.at(&path))?);
+        }
+        if let Some((path, text)) = text("score.toml")? {
+            clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
+        }
+        match file("timing.TextGrid")? {
+            Some(path) => {
+                let timing = timing::read(&path)?;
+                clip.take_timing(timing).map_err(|f| f.at(&path))?;
+                clip.timing.guessed = clip.score.guessed;
+            }
+            None => clip.guess(),
+        }
+        clip.read_labels();
+        if clip.duration() <= 0.0 {
+            return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
+                .at(&folder)
+                .help("put a speech.wav with its script.txt there, a timing.TextGrid, or a ratios.csv"));
+        }
+        Ok(clip)
+    }
+
+    /// Checks times against the script and takes them.
+    fn take_timing(&mut self, timing: Timing) -> Result<()> {
+        let Some(tier) = timing.syllables() else {
+            return Err(Fault::new("there is no tier `syllables`").help("name the tier with the syllables so"));
+        };
+        if self.plain.is_empty() && self.script.is_empty() {
+            // Times without a script: the labels are the script.
+            let labels: Vec<&str> = tier.spoken().map(|i| i.label.as_str()).collect();
+            self.script = labels.join(" ");
+            self.plain = script::syllables(&self.script, self.entry.script_system.unwrap_or(System::Auto))?;
+        }
+        timing::match_labels(&self.plain, tier, label_fits, |s| s.text.clone())?;
+        let mut syllables = Tier::new("syllables");
+        syllables.intervals = tier.spoken().cloned().collect();
+        let mut timing = timing.clone();
+        timing.tiers.retain(|t| t.name != syllables.name && !(t.name.is_empty()));
+        if timing.tiers.len() == 1 && timing.tier("words").is_none() && timing.tiers[0].intervals == syllables.intervals {
+            timing.tiers.clear();
+        }
+        timing.set_tier(syllables);
+        self.timing = timing;
+        Ok(())
+    }
+
+    /// Shares the sound among the syllables.
+    fn guess(&mut self) {
+        let labels: Vec<String> = self.plain.iter().map(|s| s.text.clone()).collect();
+        let duration = if self.sound_seconds > 0.0 { self.sound_seconds } else { 0.3 * labels.len() as f64 };
+        let sounding = self.sound.as_ref().map(Sound::sounding).unwrap_or_default();
+        self.timing = Timing { duration, tiers: Vec::new(), guessed: !labels.is_empty() };
+        if !labels.is_empty() {
+            self.timing.set_tier(timing::equal_shares(&sounding, &labels, duration));
+        }
+    }
+
+    /// Takes the readings that labels give; called again when a label is edited.
+    pub(super) fn read_labels(&mut self) {
+        self.syllables = self.plain.clone();
+        let intervals = self.timing.syllables().map(|t| t.intervals.as_slice()).unwrap_or_default();
+        for (syllable, interval) in self.syllables.iter_mut().zip(intervals) {
+            if let Some(reading) = label_reading(syllable, &interval.label) {
+                *syllable = syllable.with_reading(&reading);
+            }
+        }
+    }
+
+    /// The syllables' times, one for each.
+    #[must_use]
+    pub fn intervals(&self) -> &[Interval] {
+        self.timing.syllables().map(|t| t.intervals.as_slice()).unwrap_or_default()
+    }
+
+    /// Length in seconds: the sound's, else the longest of times, record and keys.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        if self.sound_seconds > 0.0 {
+            return self.sound_seconds;
+        }
+        let last_key = self.score.keys.iter().map(|k| k.time).fold(0.0, f64::max);
+        let record = self.record.as_ref().map_or(0.0, Record::duration);
+        self.timing.duration.max(record).max(last_key)
+    }
+
+    /// What is said as the timeline takes it: from the tier `shapes` where there is one, else from the syllables.
+    #[must_use]
+    pub fn spoken(&self, onsets: OnsetPreset) -> Vec<Spoken> {
+        if let Some(tier) = self.timing.tier("shapes") {
+            return of_shapes(tier);
+        }
+        let spoken = |(syllable, interval): (&Syllable, &Interval)| Spoken {
+            start: interval.start,
+            end: interval.end,
+            shapes: script::onsets(syllable, onsets).into_iter().zip(syllable.shapes.iter().copied()).collect(),
+        };
+        self.syllables.iter().zip(self.intervals()).map(spoken).collect()
+    }
+
+    /// The clip's score, built.
+    #[must_use]
+    pub fn timeline(&self, fps: f64, mouths: MouthPreset) -> Timeline {
+        let spoken = self.spoken(self.entry.onsets);
+        Timeline::build(&Sources {
+            duration: self.duration(),
+            fps,
+            spoken: &spoken,
+            record: self.record.as_ref(),
+            tracks: self.tracks.as_ref(),
+            score: &self.score,
+            mouths,
+        })
+    }
+}
+
+/// `speech.*` in a clip's folder.
+fn sound_file(folder: &Path) -> Result<Option<PathBuf>> {
+    let entries = std::fs::read_dir(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
+    let mut found: Vec<PathBuf> = entries
+        .flatten()
+        .map(|e| e.path())
+        .filter(|p| p.file_stem().is_some_and(|s| s == "speech") && p.is_file())
+        .collect();
+    found.sort();
+    match found.as_slice() {
+        [] => Ok(None),
+        [one] => Ok(Some(one.clone())),
+        _ => Err(Fault::new("there are several recordings").at(folder).help("keep one file called speech.*")),
+    }
+}
+
+/// Whether a tier's label can stand for a syllable: the same text, or a reading that it can have.
+fn label_fits(syllable: &Syllable, label: &str) -> bool {
+    let label = label.trim();
+    if label.eq_ignore_ascii_case(&syllable.text) || label_text(label) == syllable.text {
+        return true;
+    }
+    let Some(reading) = script::reading(label, System::Auto) else { return false };
+    if reading.is_sound_of(&syllable.pinyin) {
+        return true;
+    }
+    let mut letters = syllable.text.chars();
+    match (letters.next(), letters.next()) {
+        (Some(c), None) => script::readings_of(c).iter().any(|known| known.same_sound(&reading)),
+        _ => false,
+    }
+}
+
+/// The character before a forced reading: 行 of `行{hang2}`.
+fn label_text(label: &str) -> &str {
+    label.split('{').next().unwrap_or(label).trim()
+}
+
+/// The reading that a label gives beyond its character: of `行{hang2}` or of `hang2`.
+fn label_reading(syllable: &Syllable, label: &str) -> Option<script::Reading> {
+    let label = label.trim();
+    let forced = label.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}'));
+    match forced {
+        Some(reading) => script::reading(reading, System::Auto),
+        None if label.eq_ignore_ascii_case(&syllable.text) => None,
+        None => script::reading(label, System::Auto),
+    }
+}
+
+/// Mouth shapes with times of their own: touching ones are one utterance.
+fn of_shapes(tier: &Tier) -> Vec<Spoken> {
+    const TOUCHING: f64 = 1e-3;
+    let mut runs: Vec<Vec<&Interval>> = Vec::new();
+    for interval in tier.spoken() {
+        match runs.last_mut() {
+            Some(run) if run.last().is_some_and(|l| interval.start - l.end < TOUCHING) => run.push(interval),
+            _ => runs.push(vec![interval]),
+        }
+    }
+    runs.iter()
+        .filter_map(|run| {
+            let (start, end) = (run.first()?.start, run.last()?.end);
+            let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
+            let shapes =
+                run.iter().filter_map(|i| i.label.trim().parse().ok().map(|s| (share(i.start), s))).collect();
+            Some(Spoken { start, end, shapes })
+        })
+        .collect()
+}

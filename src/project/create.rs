@@ -1,0 +1,152 @@
+//! A new lesson from a recording and its script, or from a ratio record. Everything is checked before anything is
+//! made, and the folder appears whole or not at all.
+
+use std::path::{Path, PathBuf};
+
+use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
+use super::Lesson;
+use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
+use crate::emotion::Record;
+use crate::script::System;
+use crate::timing::{self, Format};
+
+/// The largest recording that is copied: hours of sound.
+const MAX_SOUND_BYTES: u64 = 4 << 30;
+
+/// What a new lesson is made from.
+#[derive(Debug, Default)]
+pub struct NewLesson {
+    /// Its title; the folder's name where left out.
+    pub title: Option<String>,
+    /// The recording.
+    pub speech: Option<PathBuf>,
+    /// What is said in it.
+    pub script: Option<PathBuf>,
+    /// How the script is written.
+    pub system: Option<System>,
+    /// When it is said, in any timing format.
+    pub timing: Option<PathBuf>,
+    /// A ratio record.
+    pub ratios: Option<PathBuf>,
+    /// The figure.
+    pub figure: Option<String>,
+}
+
+/// Makes the lesson `root` and returns it, read back.
+///
+/// # Errors
+/// When the folder is taken, or an input cannot be used; then nothing is left behind.
+pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
+    let name = root.file_name().and_then(|n| n.to_str()).unwrap_or_default().to_owned();
+    plain_name(&name).map_err(|f| f.of_the_call())?;
+    let taken = root.symlink_metadata().is_ok() && std::fs::read_dir(root).map_or(true, |mut d| d.next().is_some());
+    if taken {
+        return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
+    }
+    if new.speech.is_none() && new.timing.is_none() && new.ratios.is_none() {
+        return Err(Fault::new("a lesson needs a recording, times, or ratios")
+            .help("give --speech FILE --script FILE, or --timing FILE, or --ratios FILE")
+            .of_the_call());
+    }
+    if new.speech.is_some() && new.script.is_none() && new.timing.is_none() {
+        return Err(Fault::new("a recording needs its script").help("give --script FILE with what is said").of_the_call());
+    }
+    let parent = match root.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
+    let draft = tempfile::Builder::new()
+        .prefix(".lianpu-new-")
+        .tempdir_in(parent)
+        .map_err(|e| Fault::io("cannot make the lesson's folder", parent, e))?;
+    let clip = ClipEntry {
+        name: name.clone(),
+        face: None,
+        script_system: new.system.filter(|s| *s != System::Auto),
+        onsets: Default::default(),
+        take_of: None,
+    };
+    fill(draft.path(), &clip, new)?;
+    let figure = new.figure.clone().or(Some("line".into()));
+    let manifest = Manifest {
+        title: clean_line(new.title.as_deref().unwrap_or(&name), 200),
+        faces: vec![FaceEntry { name: "teacher".into(), figure, style: None, mouths: Default::default() }],
+        clips: vec![clip],
+        output: Output::default(),
+    };
+    write_whole(&draft.path().join(MANIFEST), manifest.to_toml().as_bytes())?;
+    write_whole(&draft.path().join(".gitignore"), b"/.lianpu/\n/export/\n")?;
+    // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
+    // files, not the draft's.
+    let lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(f, new))?;
+    lesson.figure_of(&lesson.manifest.clips[0]).map_err(|f| Fault::new(f.what()).help(f.next_step()).of_the_call())?;
+    drop(lesson);
+    if root.exists() {
+        std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
+    }
+    let made = draft.keep();
+    std::fs::rename(&made, root).map_err(|e| {
+        let _ = std::fs::remove_dir_all(&made);
+        Fault::io("cannot make the lesson's folder", root, e)
+    })?;
+    open_to_others(root);
+    Lesson::read(root)
+}
+
+fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
+    let folder = root.join("clips").join(&clip.name);
+    std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
+    if let Some(path) = &new.speech {
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("wav").to_ascii_lowercase();
+        write_whole(&folder.join(format!("speech.{extension}")), &read_bytes(path, MAX_SOUND_BYTES)?)?;
+        // Read where it is, so that a fault names the author's file.
+        crate::speech::Sound::read(path)?;
+    }
+    if let Some(path) = &new.script {
+        write_whole(&folder.join("script.txt"), read_text(path)?.as_bytes())?;
+    }
+    if let Some(path) = &new.timing {
+        let timing = timing::read(path)?;
+        write_whole(&folder.join("timing.TextGrid"), timing::write(&timing, Format::TextGrid).as_bytes())?;
+    }
+    if let Some(path) = &new.ratios {
+        let text = read_text(path)?;
+        Record::parse(&text).map_err(|f| f.at(path))?;
+        write_whole(&folder.join("ratios.csv"), text.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The fault with the author's file in place of its copy in the draft.
+fn of_inputs(fault: Fault, new: &NewLesson) -> Fault {
+    let copied = fault.path().and_then(|p| p.file_stem()).and_then(|s| s.to_str()).unwrap_or_default().to_owned();
+    let original = match copied.as_str() {
+        "speech" => &new.speech,
+        "script" => &new.script,
+        "timing" => &new.timing,
+        "ratios" => &new.ratios,
+        _ => &None,
+    };
+    let mut named = Fault::new(fault.what()).help(fault.next_step());
+    if let Some(path) = original {
+        named = named.at(path);
+    }
+    match fault.line_number() {
+        Some(line) => named.line(line),
+        None => named,
+    }
+}
+
+/// A temporary folder is its owner's alone; a lesson is a folder like any other.
+fn open_to_others(root: &Path) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // Where this fails the lesson is private, and works.
+        let _ = std::fs::set_permissions(root, std::fs::Permissions::from_mode(0o755));
+    }
+    #[cfg(not(unix))]
+    let _ = root;
+}
+

@@ -1,0 +1,66 @@
+//! The list of changes, and where in it the lesson and its files are.
+
+use super::Change;
+
+/// Changes made, changes taken back, and how many of those made are in the files.
+#[derive(Debug, Default)]
+pub struct History {
+    done: Vec<Change>,
+    undone: Vec<Change>,
+    /// The length of `done` when the files were last written; none where that state can no longer be reached.
+    saved: Option<usize>,
+    started: bool,
+}
+
+impl History {
+    /// The changes made, oldest first.
+    #[must_use]
+    pub fn done(&self) -> &[Change] {
+        &self.done
+    }
+
+    /// The changes taken back, the one to be made again next at the end.
+    #[must_use]
+    pub fn undone(&self) -> &[Change] {
+        &self.undone
+    }
+
+    pub(super) fn push(&mut self, change: Change) {
+        self.start();
+        if self.saved.is_some_and(|s| s > self.done.len()) {
+            self.saved = None;
+        }
+        self.undone.clear();
+        self.done.push(change);
+    }
+
+    pub(super) fn step_back(&mut self) -> Option<Change> {
+        self.start();
+        let change = self.done.pop()?;
+        self.undone.push(change.clone());
+        Some(change)
+    }
+
+    pub(super) fn step_on(&mut self) -> Option<Change> {
+        let change = self.undone.pop()?;
+        self.done.push(change.clone());
+        Some(change)
+    }
+
+    pub(super) fn is_unsaved(&self) -> bool {
+        self.started && self.saved != Some(self.done.len())
+    }
+
+    pub(super) fn mark_saved(&mut self) {
+        self.started = true;
+        self.saved = Some(self.done.len());
+    }
+
+    /// A lesson as read is as its files are.
+    fn start(&mut self) {
+        if !self.started {
+            self.started = true;
+            self.saved = Some(self.done.len());
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! A lesson in memory: its manifest, its clips, its figures, and the list of changes made to it.
+
+use std::path::{Path, PathBuf};
+
+use super::history::History;
+use super::journal::Journal;
+use super::manifest::{ClipEntry, MANIFEST, Manifest};
+use super::{Change, Clip};
+use crate::disk::{Fault, Lock, Result, inside, nearest, read_text};
+use crate::figure::LineFigure;
+use crate::pose::MouthPreset;
+use crate::timeline::Timeline;
+
+/// The folder of what the program keeps for itself.
+pub(super) const OWN_FOLDER: &str = ".lianpu";
+
+/// A lesson that is open.
+#[derive(Debug)]
+pub struct Lesson {
+    /// Its folder.
+    pub root: PathBuf,
+    /// What it is called and has.
+    pub manifest: Manifest,
+    /// Its clips, in the manifest's order.
+    pub clips: Vec<Clip>,
+    /// Why it cannot be changed; none where it can.
+    pub read_only: Option<String>,
+    /// How many unsaved changes of an earlier run were brought back.
+    pub recovered: usize,
+    pub(super) history: History,
+    pub(super) journal: Option<Journal>,
+    pub(super) lock: Option<Lock>,
+}
+
+impl Lesson {
+    /// Reads a lesson to look at and export. Nothing is locked and nothing on disk changes.
+    ///
+    /// # Errors
+    /// When the manifest or a clip is damaged.
+    pub fn read(root: &Path) -> Result<Self> {
+        let manifest = Manifest::read(root)?;
+        let clips = manifest.clips.iter().map(|entry| Clip::read(root, entry)).collect::<Result<Vec<_>>>()?;
+        Ok(Self {
+            root: root.to_owned(),
+            manifest,
+            clips,
+            read_only: Some("it was opened to be read".into()),
+            recovered: 0,
+            history: History::default(),
+            journal: None,
+            lock: None,
+        })
+    }
+
+    /// Opens a lesson to work on it: takes its lock and brings back what an earlier run left unsaved. Where another
+    /// studio has it open, or it cannot be written to, it opens read-only and says so.
+    ///
+    /// # Errors
+    /// When the manifest or a clip is damaged.
+    pub fn open(root: &Path) -> Result<Self> {
+        let mut lesson = Self::read(root)?;
+        let own = root.join(OWN_FOLDER);
+        match Lock::take(&own.join("lock")) {
+            Ok(Some(lock)) => {
+                lesson.lock = Some(lock);
+                lesson.read_only = None;
+            }
+            Ok(None) => lesson.read_only = Some("it is open in another window".into()),
+            Err(_) => lesson.read_only = Some("its folder cannot be written to".into()),
+        }
+        if lesson.read_only.is_none() {
+            let (journal, unsaved) = Journal::open(&own.join("journal"))?;
+            for change in unsaved {
+                // A change that no longer fits was made to files that have since been changed by other means.
+                if lesson.apply(&change).is_err() {
+                    break;
+                }
+                lesson.history.push(change);
+                lesson.recovered += 1;
+            }
+            lesson.journal = Some(journal);
+        }
+        Ok(lesson)
+    }
+
+    /// Makes a change, remembers it for undo, and notes it in the journal.
+    ///
+    /// # Errors
+    /// When the lesson is read-only, the change does not fit it, or the journal cannot be written.
+    pub fn change(&mut self, change: Change) -> Result<()> {
+        if let Some(why) = &self.read_only {
+            return Err(Fault::new(format!("the lesson cannot be changed: {why}"))
+                .help("copy the folder to a place of yours and open the copy"));
+        }
+        self.apply(&change)?;
+        if let Some(journal) = &mut self.journal {
+            journal.note(&change)?;
+        }
+        self.history.push(change);
+        Ok(())
+    }
+
+    /// Takes the last change back; its label, or none where there is none.
+    ///
+    /// # Errors
+    /// When the journal cannot be written.
+    pub fn undo(&mut self) -> Result<Option<String>> {
+        let Some(change) = self.history.step_back() else { return Ok(None) };
+        self.retrace(&change.inverse(), &change.label)
+    }
+
+    /// Makes the change that was last taken back again.
+    ///
+    /// # Errors
+    /// When the journal cannot be written.
+    pub fn redo(&mut self) -> Result<Option<String>> {
+        let Some(change) = self.history.step_on() else { return Ok(None) };
+        self.retrace(&change, &change.label.clone())
+    }
+
+    fn retrace(&mut self, change: &Change, label: &str) -> Result<Option<String>> {
+        self.apply(change)?;
+        if let Some(journal) = &mut self.journal {
+            journal.note(change)?;
+        }
+        Ok(Some(label.to_owned()))
+    }
+
+    /// Whether there are changes that are not in the files.
+    #[must_use]
+    pub fn is_unsaved(&self) -> bool {
+        self.history.is_unsaved()
+    }
+
+    /// The changes made and taken back, for a list of them.
+    #[must_use]
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    fn apply(&mut self, change: &Change) -> Result<()> {
+        let mut done: Vec<&super::Edit> = Vec::new();
+        for edit in &change.edits {
+            if let Err(fault) = edit.apply(&mut self.clips) {
+                // All or nothing: what was done is undone, which cannot fail for edits that were just applied.
+                for edit in done.into_iter().rev() {
+                    let _ = edit.inverse().apply(&mut self.clips);
+                }
+                return Err(fault);
+            }
+            done.push(edit);
+        }
+        Ok(())
+    }
+
+    /// The number of the clip of that name, or of the only one.
+    ///
+    /// # Errors
+    /// When there is none of that name, with the names there are; or when there are several and none was named.
+    pub fn clip_named(&self, name: Option<&str>) -> Result<usize> {
+        let known: Vec<&str> = self.clips.iter().map(|c| c.entry.name.as_str()).collect();
+        match name {
+            Some(name) => self.clips.iter().position(|c| c.entry.name == name).ok_or_else(|| {
+                let near = nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
+                Fault::new(format!("there is no clip `{name}`"))
+                    .at(self.root.join(MANIFEST))
+                    .help(format!("{near}clips: {}", known.join(", ")))
+            }),
+            None if self.clips.is_empty() => {
+                Err(Fault::new("the lesson has no clips").at(self.root.join(MANIFEST)).help("add a [[clip]]"))
+            }
+            None => Ok(0),
+        }
+    }
+
+    /// Which nine mouth shapes a clip's face has.
+    #[must_use]
+    pub fn mouths_of(&self, clip: &ClipEntry) -> MouthPreset {
+        self.manifest.face_of(clip).map(|f| f.mouths).unwrap_or_default()
+    }
+
+    /// A clip's score, built for the lesson's frame rate or another.
+    #[must_use]
+    pub fn timeline(&self, clip: usize, fps: Option<f64>) -> Timeline {
+        let clip = &self.clips[clip];
+        clip.timeline(fps.unwrap_or(self.manifest.output.fps), self.mouths_of(&clip.entry))
+    }
+
+    /// The figure that a clip is drawn with.
+    ///
+    /// # Errors
+    /// When the manifest names one that does not exist or is damaged.
+    pub fn figure_of(&self, clip: &ClipEntry) -> Result<LineFigure> {
+        let named = self.manifest.face_of(clip).and_then(|f| f.figure.as_deref()).unwrap_or("line");
+        match named.strip_prefix("figures/") {
+            Some(_) => {
+                let path = inside(&self.root, named).map_err(|f| f.at(self.root.join(MANIFEST)))?;
+                LineFigure::parse(&read_text(&path)?).map_err(|f| f.at(&path))
+            }
+            None if named == "cartoon" => Err(Fault::new("the figure `cartoon` cannot be drawn yet")
+                .at(self.root.join(MANIFEST))
+                .help("this version draws line figures: write figure = \"line\"")),
+            None => LineFigure::built_in(named).map_err(|f| f.at(self.root.join(MANIFEST))),
+        }
+    }
+}
+
+/// The projects in a folder, by name; the folder itself where it is one.
+///
+/// # Errors
+/// When the folder cannot be listed.
+pub fn projects_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    if folder.join(MANIFEST).is_file() {
+        return Ok(vec![folder.to_owned()]);
+    }
+    let entries = std::fs::read_dir(folder).map_err(|e| {
+        Fault::io("cannot list the folder", folder, e).help("give a folder that holds projects, or a project")
+    })?;
+    let mut found: Vec<PathBuf> =
+        entries.flatten().map(|e| e.path()).filter(|p| p.join(MANIFEST).is_file()).collect();
+    found.sort();
+    Ok(found)
+}

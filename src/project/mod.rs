@@ -1,0 +1,22 @@
+//! A lesson: its folder on disk, what is in it, and every change to it as an invertible edit.
+//!
+//! It owns the files of a project and what they mean together; how a face is drawn or a frame written is not its
+//! business. Loading never changes anything on disk.
+
+mod change;
+mod check;
+mod clip;
+mod create;
+mod history;
+mod journal;
+mod lesson;
+mod manifest;
+mod save;
+
+pub use change::{Change, Edit};
+pub use check::{Finding, check};
+pub use clip::{Clip, LABEL_LIMIT};
+pub use create::{NewLesson, create};
+pub use history::History;
+pub use lesson::{Lesson, projects_in};
+pub use manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
