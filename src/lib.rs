@@ -9,4 +9,5 @@ pub mod cli;
 pub mod disk;
 pub mod emotion;
 pub mod pose;
+pub mod speech;
 pub mod timing;
