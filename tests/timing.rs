@@ -1,12 +1,16 @@
 //! Every timing format: what is written reads back, what is damaged is named with its line, nothing panics.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
 use std::path::{Path, PathBuf};
 
 use lianpu::timing::{Format, Interval, Tier, Timing, parse, read, write, write_tier};
 use proptest::prelude::*;
 
-fn timing(tiers: &[(&str, &[(f64, f64, &str)])], duration: f64) -> Timing {
-    let tier = |(name, intervals): &(&str, &[(f64, f64, &str)])| Tier {
+type Labels<'a> = &'a [(f64, f64, &'a str)];
+
+fn timing(tiers: &[(&str, Labels)], duration: f64) -> Timing {
+    let tier = |(name, intervals): &(&str, Labels)| Tier {
         name: (*name).to_owned(),
         intervals: intervals.iter().map(|(s, e, l)| Interval::new(*s, *e, *l)).collect(),
     };
@@ -283,4 +287,57 @@ fn every_textgrid_of_the_test_data_reads_and_comes_back_within_a_millisecond() {
     }
     println!("{files} TextGrids, furthest {far:.6} s");
     assert!(files > 0 && far <= 0.001);
+}
+
+/// Runs `lianpu convert` and gives its exit code, output and errors.
+fn convert(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lianpu"));
+    let done = command.arg("convert").args(arguments).output().unwrap();
+    (done.status.code(), String::from_utf8(done.stdout).unwrap(), String::from_utf8(done.stderr).unwrap())
+}
+
+#[test]
+fn the_command_converts_times_and_ratios_by_their_content() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let times = file("times.txt", &write(&sample(), Format::TextGrid));
+    let out = folder.path().join("new/times.csv").to_str().unwrap().to_owned();
+    assert_eq!(convert(&[&times, "--to", "csv", "--out", &out]), (Some(0), String::new(), String::new()));
+    let (code, json, _) = convert(&[&out, "--to", "json"]);
+    assert_eq!((code, parse(json.as_bytes(), Format::Json).unwrap()), (Some(0), sample()));
+    let (_, srt, _) = convert(&[&out, "--to", "srt", "--tier", "syllables"]);
+    assert!(srt.contains("nin2"), "{srt}");
+
+    let ratios = "frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n0,0,0.5,0.5,0,0,0,0,0,1\n";
+    let record = file("ratios.csv", ratios);
+    let (code, json, _) = convert(&[&record, "--to", "json"]);
+    assert_eq!(code, Some(0));
+    let (code, csv, _) = convert(&[&file("ratios.json", &json), "--to", "csv"]);
+    assert_eq!((code, csv.as_str()), (Some(0), ratios));
+}
+
+#[test]
+fn the_command_tells_a_wrong_call_from_a_wrong_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("times.srt");
+    std::fs::write(&path, write(&sample(), Format::Srt)).unwrap();
+    let times = path.to_str().unwrap();
+    let record = folder.path().join("ratios.csv");
+    std::fs::write(&record, "frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n").unwrap();
+    let ratios = record.to_str().unwrap();
+    for (arguments, code, said) in [
+        (&[times, "--to", "mp3"][..], 2, "textgrid, textgrid-short, srt, vtt, csv, json"),
+        (&[ratios, "--to", "srt"], 2, "csv, json"),
+        (&[times, "--to", "csv", "--tier", "words"], 2, "the tiers are syllables"),
+        (&[ratios, "--to", "json"], 1, "no rows"),
+        (&["no such file", "--to", "csv"], 1, "cannot open it"),
+    ] {
+        let (found, out, error) = convert(arguments);
+        assert_eq!((found, out.as_str()), (Some(code), ""), "{error}");
+        assert!(error.contains(said), "{error}");
+    }
 }

@@ -232,12 +232,12 @@ fn label_fits(syllable: &Syllable, label: &str) -> bool {
         return true;
     }
     let Some(reading) = script::reading(label, System::Auto) else { return false };
-    if reading.is_sound_of(&syllable.pinyin) {
+    if syllable.sound() == Some(reading.sound()) {
         return true;
     }
     let mut letters = syllable.text.chars();
     match (letters.next(), letters.next()) {
-        (Some(c), None) => script::readings_of(c).iter().any(|known| known.same_sound(&reading)),
+        (Some(c), None) => script::readings_of(c).iter().any(|known| known.sound() == reading.sound()),
         _ => false,
     }
 }

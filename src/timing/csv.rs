@@ -11,6 +11,9 @@ use crate::disk::{Fault, Result};
 
 const COLUMNS: [&str; 4] = ["tier", "start", "end", "label"];
 
+/// A row's line, start, end and label.
+type Row = (usize, f64, f64, String);
+
 /// Whether a first line is this table's header.
 pub(super) fn is_header(line: &str) -> bool {
     let names: Vec<&str> = line.split(',').map(|n| n.trim().trim_matches('"')).collect();
@@ -31,7 +34,7 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
             .ok_or_else(|| header_fault(Fault::new(format!("the column `{column}` is missing")).line(line)))?;
     }
     // Rows may come by tier or by time: they are gathered by tier and put in order before they are laid.
-    let mut tiers: Vec<(String, Vec<(usize, f64, f64, String)>)> = Vec::new();
+    let mut tiers: Vec<(String, Vec<Row>)> = Vec::new();
     for (line, record) in records {
         if record.len() != header.len() {
             return Err(Fault::new(format!("the row has {} values, the header {}", record.len(), header.len()))

@@ -105,10 +105,13 @@ impl Timing {
         self.tier("syllables").or(if let [only] = self.tiers.as_slice() { Some(only) } else { None })
     }
 
-    /// What subtitles are made of: the words, else the syllables, else the first tier.
+    /// What subtitles are made of: the words, else the syllables, else the first tier; one with nothing in it only
+    /// where all are so.
     #[must_use]
     pub fn subtitles(&self) -> Option<&Tier> {
-        self.tier("words").or_else(|| self.syllables()).or_else(|| self.tiers.first())
+        let says = |tier: &&Tier| !tier.intervals.is_empty();
+        let known = self.tier("words").filter(says).or_else(|| self.syllables().filter(says));
+        known.or_else(|| self.tiers.iter().find(says)).or_else(|| self.tiers.first())
     }
 
     /// Puts a tier in the place of the one of its name, or where it belongs: words, syllables, phones, shapes,
