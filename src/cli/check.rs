@@ -1,0 +1,62 @@
+//! `lianpu check`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::output_fault;
+use crate::disk::{Fault, Result};
+use crate::project::{Finding, check};
+
+/// Say what lessons have, lack, and have wrong. Exit code 1 if anything is wrong.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The projects.
+    #[arg(value_name = "PROJECT", required = true)]
+    projects: Vec<PathBuf>,
+    /// One JSON object a finding.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Checks every project and prints what it finds.
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let mut wrong = 0;
+    for project in &args.projects {
+        if !args.json {
+            writeln!(out, "{}", project.display()).map_err(output_fault)?;
+        }
+        for finding in check(project) {
+            let (kind, text) = match &finding {
+                Finding::Fine(text) => ("fine", text.clone()),
+                Finding::Odd(text) => ("odd", text.clone()),
+                Finding::Wrong(fault) => {
+                    wrong += 1;
+                    ("wrong", fault.to_string())
+                }
+            };
+            let line = if args.json {
+                let mut line = serde_json::json!({ "project": project, "finding": kind, "text": text });
+                if let Finding::Wrong(fault) = &finding {
+                    line["text"] = fault.what().into();
+                    line["file"] = fault.path().map(|p| p.display().to_string()).into();
+                    line["line"] = fault.line_number().into();
+                    line["help"] = fault.next_step().into();
+                }
+                line.to_string()
+            } else {
+                let mark = match kind {
+                    "fine" => "  ok     ",
+                    "odd" => "  note   ",
+                    _ => "  WRONG  ",
+                };
+                format!("{mark}{}", text.replace('\n', "\n         "))
+            };
+            writeln!(out, "{line}").map_err(output_fault)?;
+        }
+    }
+    match wrong {
+        0 => Ok(()),
+        1 => Err(Fault::new("one thing is wrong").help("it is marked WRONG above")),
+        n => Err(Fault::new(format!("{n} things are wrong")).help("they are marked WRONG above")),
+    }
+}

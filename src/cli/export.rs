@@ -1,0 +1,147 @@
+//! `lianpu export`.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::output_fault;
+use crate::disk::{Fault, Result};
+use crate::drawing::Colour;
+use crate::export::{Format, FrameSet, Progress, Request, Shard, plan, run as run_jobs};
+use crate::project::Lesson;
+
+/// Write lessons as frames and subtitles. Run again, it only writes what is missing or has changed.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The projects.
+    #[arg(value_name = "PROJECT", required = true)]
+    projects: Vec<PathBuf>,
+    /// The forms, with commas between them: svg, png, textgrid, srt, vtt.
+    #[arg(long = "to", value_name = "FORMAT", required = true, value_delimiter = ',')]
+    formats: Vec<Format>,
+    /// One clip; all of them where left out.
+    #[arg(long)]
+    clip: Option<String>,
+    /// Where the files go; PROJECT/export where left out.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Which frames, counted from 0, the last one included: 0-24 or 0-24,50-74.
+    #[arg(long, value_name = "A-B")]
+    frames: Option<FrameSet>,
+    /// One part of the frames, counted from 1: 2/3 is the second of three.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Threads; as many as there are processors where left out.
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    jobs: usize,
+    /// Width and height in pixels instead of the lesson's.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Frames a second instead of the lesson's.
+    #[arg(long, value_name = "N")]
+    fps: Option<f64>,
+    /// #rrggbb, white, black or transparent.
+    #[arg(long, value_name = "COLOR")]
+    background: Option<Colour>,
+    /// Progress and result as lines of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    parsed.ok_or_else(|| format!("`{text}` is no size: write width x height, such as 1280x720"))
+}
+
+/// Exports every project and prints where the files are.
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let request = Request {
+        formats: args.formats.clone(),
+        clip: args.clip.clone(),
+        out: args.out.clone(),
+        by_project: args.projects.len() > 1,
+        frames: args.frames.clone().unwrap_or_default(),
+        shard: args.shard.unwrap_or(Shard::WHOLE),
+        size: args.size,
+        fps: args.fps,
+        background: args.background.map(|c| if c.a == 0 { None } else { Some(c) }),
+        jobs: args.jobs,
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        // A second signal ends the program at once: every file is whole at any moment.
+        let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
+        let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
+    }
+    for project in &args.projects {
+        let lesson = Lesson::read(project)?;
+        let jobs = plan(&lesson, &request)?;
+        for clip in &lesson.clips {
+            note_guess(clip, &jobs);
+        }
+        let frames: u32 = jobs.iter().map(|j| j.frames.len() as u32).sum();
+        let bar = progress_bar(frames, args.json);
+        let lines = args.json && frames > 0;
+        let show = |p: Progress| {
+            bar.set_position(u64::from(p.done));
+            // A line a hundredth, so that a log stays readable.
+            if lines && (p.done == p.of || p.done.is_multiple_of((p.of / 100).max(1))) {
+                eprintln!("{}", serde_json::json!({ "done": p.done, "of": p.of }));
+            }
+        };
+        let report = run_jobs(&jobs, request.jobs, &show, &stop)?;
+        bar.finish_and_clear();
+        if report.stopped {
+            return Err(
+                Fault::new("the export was stopped before its end").help("run it again: it goes on where it stopped")
+            );
+        }
+        for job in &jobs {
+            let place = if job.formats.is_empty() { None } else { Some(job.folder.display().to_string()) };
+            let files = job.texts.iter().map(|(path, _)| path.display().to_string());
+            for path in place.into_iter().chain(files) {
+                let line = if args.json {
+                    serde_json::json!({ "clip": job.clip, "path": path, "frames": job.frames.len(),
+                        "written": report.written, "kept": report.kept, "removed": report.removed,
+                        "bytes": report.bytes })
+                    .to_string()
+                } else {
+                    path
+                };
+                writeln!(out, "{line}").map_err(output_fault)?;
+            }
+        }
+        if !args.json {
+            let removed = match report.removed {
+                0 => String::new(),
+                n => format!(", {n} left over from a longer export removed"),
+            };
+            eprintln!("{} files written, {} already there{removed}", report.written, report.kept);
+        }
+    }
+    Ok(())
+}
+
+/// Frames drawn from guessed times look as sure as any others, so it is said.
+fn note_guess(clip: &crate::project::Clip, jobs: &[crate::export::Job]) {
+    if clip.timing.guessed && !clip.syllables.is_empty() && jobs.iter().any(|j| j.clip == clip.entry.name) {
+        eprintln!("note: the times of clip {} are guessed; set them in the studio", clip.entry.name);
+    }
+}
+
+fn progress_bar(frames: u32, json: bool) -> ProgressBar {
+    if json || frames == 0 || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(u64::from(frames));
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} frames  {per_sec}  {eta} left");
+    if let Ok(style) = style {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}

@@ -1,0 +1,70 @@
+//! `lianpu new`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::output_fault;
+use crate::disk::Result;
+use crate::project::{NewLesson, create};
+use crate::script::System;
+
+/// Make a lesson from a recording and its script, from times, or from ratios.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The folder to make; its last part names the lesson and its clip.
+    #[arg(value_name = "PROJECT")]
+    project: PathBuf,
+    /// The recording, a WAV file.
+    #[arg(long, value_name = "FILE")]
+    speech: Option<PathBuf>,
+    /// What is said in it: characters, Pinyin, Zhuyin, Tongyong or English.
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+    /// How the script is written; told from the text where left out.
+    #[arg(long, value_name = "SYSTEM")]
+    from: Option<System>,
+    /// When it is said: TextGrid, SRT, WebVTT, CSV or JSON.
+    #[arg(long, value_name = "FILE")]
+    timing: Option<PathBuf>,
+    /// A ratio record, ratios.csv.
+    #[arg(long, value_name = "FILE")]
+    ratios: Option<PathBuf>,
+    /// The figure: line or cat.
+    #[arg(long, value_name = "NAME")]
+    figure: Option<String>,
+    /// The lesson's title; its folder's name where left out.
+    #[arg(long)]
+    title: Option<String>,
+}
+
+/// Makes the lesson and prints what comes next.
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let new = NewLesson {
+        title: args.title.clone(),
+        speech: args.speech.clone(),
+        script: args.script.clone(),
+        system: args.from,
+        timing: args.timing.clone(),
+        ratios: args.ratios.clone(),
+        figure: args.figure.clone(),
+    };
+    let lesson = create(&args.project, &new)?;
+    let root = args.project.display();
+    let clip = &lesson.clips[0];
+    let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
+    let syllables = match clip.syllables.len() {
+        0 => String::new(),
+        1 => ", 1 syllable".into(),
+        n => format!(", {n} syllables"),
+    };
+    say(format!("made {root}: {:.2} s{syllables}", clip.duration()))?;
+    for warning in &clip.warnings {
+        say(format!("note: {warning}"))?;
+    }
+    if clip.timing.guessed {
+        say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;
+    }
+    let quoted = if args.project.to_string_lossy().contains(' ') { format!("'{root}'") } else { root.to_string() };
+    say(format!("next: lianpu {quoted}                      see and correct it in the studio"))?;
+    say(format!("      lianpu export {quoted} --to png      write its frames"))
+}

@@ -1,0 +1,137 @@
+//! `lianpu plot`.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::output_fault;
+use crate::disk::{Fault, Result, write_whole};
+use crate::drawing::Drawing;
+use crate::plot;
+use crate::pose::{Emotion, Pose, Ratios};
+use crate::project::Lesson;
+use crate::render::{MAX_SIDE, Painter, encode_png, to_svg};
+use crate::timeline::Timeline;
+
+/// Draw charts of a clip.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The project.
+    #[arg(value_name = "PROJECT")]
+    project: PathBuf,
+    /// Which chart.
+    #[arg(long, value_enum)]
+    what: What,
+    /// Moments in seconds, with commas between them: for `frame` one, for `faces` as many as you like.
+    #[arg(long, value_name = "TIME", value_delimiter = ',')]
+    at: Vec<f64>,
+    /// The clip; the first where left out.
+    #[arg(long)]
+    clip: Option<String>,
+    /// Where to, an .svg or .png file; PROJECT/export/CLIP-WHAT.svg where left out.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum What {
+    /// The seven ratios over time.
+    Ratios,
+    /// How fast they change.
+    Change,
+    /// Sound, syllables, mouth shapes and ratios.
+    Timeline,
+    /// The figure's seven drawings; with --at, moments with their ratios.
+    Faces,
+    /// A moment's drawing beside its seven ratios.
+    Frame,
+}
+
+/// Draws the chart and prints where it is.
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let lesson = Lesson::read(&args.project)?;
+    let index = lesson.clip_named(args.clip.as_deref()).map_err(Fault::of_the_call)?;
+    let clip = &lesson.clips[index];
+    let timeline = lesson.timeline(index, None);
+    for at in &args.at {
+        if !(0.0..=timeline.duration()).contains(at) {
+            return Err(Fault::new(format!("there is nothing at {at} s"))
+                .help(format!("the clip `{}` lasts from 0 to {:.2} s", clip.entry.name, timeline.duration()))
+                .of_the_call());
+        }
+    }
+    let figure = lesson.figure_of(&clip.entry)?;
+    let title = format!("{} · {}", lesson.manifest.title, clip.entry.name);
+    let samples: Vec<(f64, Ratios)> = (0..=timeline.frames())
+        .map(|k| timeline.time_of(k).min(timeline.duration()))
+        .map(|t| (t, timeline.ratios(t)))
+        .collect();
+    let moment = |t: f64| {
+        let pose = timeline.pose(t);
+        (format!("{t:.2} s"), figure.draw(&pose), Some(pose.ratios))
+    };
+    let (name, drawing) = match args.what {
+        What::Ratios => ("ratios", plot::ratios(&title, &samples)),
+        What::Change => ("change", plot::change(&title, &samples)),
+        What::Timeline => ("timeline", score_of(&title, clip, &timeline, &samples)),
+        What::Faces if args.at.is_empty() => {
+            let pure = |e: Emotion| (e.name().to_owned(), figure.draw(&Pose::of(Ratios::pure(e))), None);
+            ("faces", plot::faces(figure.title(), &Emotion::ALL.map(pure)))
+        }
+        What::Faces => ("faces", plot::faces(&title, &args.at.iter().map(|t| moment(*t)).collect::<Vec<_>>())),
+        What::Frame => {
+            let &[at] = args.at.as_slice() else {
+                return Err(Fault::new("a frame needs its moment")
+                    .help("give --at with one time in seconds")
+                    .of_the_call());
+            };
+            let pose = timeline.pose(at);
+            ("frame", plot::frame(&format!("{title}, {at:.2} s"), &figure.draw(&pose), &pose.ratios))
+        }
+    };
+    let path = match &args.out {
+        Some(path) => path.clone(),
+        None => args.project.join("export").join(format!("{}-{name}.svg", clip.entry.name)),
+    };
+    write_chart(&path, &drawing)?;
+    writeln!(out, "{}", path.display()).map_err(output_fault)
+}
+
+fn score_of(title: &str, clip: &crate::project::Clip, timeline: &Timeline, samples: &[(f64, Ratios)]) -> Drawing {
+    let duration = timeline.duration();
+    let peaks = clip.sound.as_ref().map(|s| s.peaks(0.0, duration, 1250)).unwrap_or_default();
+    let guessed = if clip.timing.guessed { "guessed" } else { "script" };
+    let said = clip.intervals().iter().zip(&clip.syllables);
+    let text = said.clone().map(|(i, s)| (i.start, i.end, s.text.clone())).collect();
+    let sounds = said.map(|(i, s)| (i.start, i.end, s.pinyin.clone())).collect();
+    let shapes = timeline
+        .mouth_keys()
+        .iter()
+        .filter_map(|k| k.shape.map(|s| (k.time, k.time, s.letter().to_string())))
+        .collect();
+    let blinks = timeline.blinks().iter().map(|b| (b.start, b.start + b.length, String::new())).collect();
+    let rows = [
+        plot::Row { name: guessed, spans: text },
+        plot::Row { name: "pinyin", spans: sounds },
+        plot::Row { name: "mouth", spans: shapes },
+        plot::Row { name: "blinks", spans: blinks },
+    ];
+    plot::timeline(title, duration, &peaks, &rows, samples)
+}
+
+/// Writes a chart as what its file's name says.
+fn write_chart(path: &Path, drawing: &Drawing) -> Result<()> {
+    let size = |v: f64| (v.ceil() as u32).clamp(1, MAX_SIDE);
+    let (width, height) = (size(drawing.view.width()), size(drawing.view.height()));
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("svg") => write_whole(path, to_svg(drawing, width, height).as_bytes()),
+        Some("png") => {
+            if let Some(c) = crate::render::uncovered_in(drawing) {
+                eprintln!("note: the chart's font has no `{c}` and draws a box; an .svg file keeps the text");
+            }
+            write_whole(path, &encode_png(&Painter::new(width, height)?.paint(drawing), "")?)
+        }
+        _ => Err(Fault::new(format!("`{}` ends in neither .svg nor .png", path.display()))
+            .help("name the chart's file so")
+            .of_the_call()),
+    }
+}

@@ -1,0 +1,113 @@
+//! Which frames of a clip: ranges, counted inclusively, and shards of them.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Ranges of frame numbers, first and last included; empty means all.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct FrameSet(Vec<(u32, u32)>);
+
+impl FrameSet {
+    /// Whether every frame is meant.
+    #[must_use]
+    pub fn is_all(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The frames of a clip of `count` that are meant, in order.
+    #[must_use]
+    pub fn of(&self, count: u32) -> Vec<u32> {
+        if self.is_all() {
+            return (0..count).collect();
+        }
+        let mut frames: Vec<u32> =
+            self.0.iter().flat_map(|(a, b)| *a..=(*b).min(count.saturating_sub(1))).filter(|f| *f < count).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        frames
+    }
+
+    /// The highest frame named.
+    #[must_use]
+    pub fn last(&self) -> Option<u32> {
+        self.0.iter().map(|r| r.1).max()
+    }
+}
+
+impl FromStr for FrameSet {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let number = |s: &str| {
+            s.trim().parse::<u32>().map_err(|_| format!("`{s}` is no frame number: write 10-20 or 10-20,40-50"))
+        };
+        let range = |part: &str| {
+            let (a, b) = part.split_once('-').unwrap_or((part, part));
+            let (a, b) = (number(a)?, number(b)?);
+            if a <= b { Ok((a, b)) } else { Err(format!("`{part}` runs backward: write {b}-{a}")) }
+        };
+        text.split(',').map(range).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+/// One part of an export that is divided among machines: part `index` of `count`, counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    index: u32,
+    count: u32,
+}
+
+impl Shard {
+    /// Everything.
+    pub const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// This shard's part of a list: neighbouring items, so that what repeats from frame to frame stays together.
+    #[must_use]
+    pub fn of<T: Copy>(self, list: &[T]) -> Vec<T> {
+        let at = |i: u32| (list.len() as u64 * u64::from(i) / u64::from(self.count)) as usize;
+        list[at(self.index - 1)..at(self.index)].to_vec()
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parsed = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match parsed {
+            Some((index, count)) if 1 <= index && index <= count => Ok(Self { index, count }),
+            _ => Err(format!("`{text}` is no shard: write I/N with I from 1 to N, such as 2/3")),
+        }
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn ranges_count_inclusively_and_stop_at_the_clip_s_end() {
+        let set: FrameSet = "3-5,5-6,90-200".parse().unwrap();
+        assert_eq!(set.of(92), [3, 4, 5, 6, 90, 91]);
+        assert_eq!("7".parse::<FrameSet>().unwrap().of(10), [7]);
+        for bad in ["", "a", "5-3", "1-", "-1"] {
+            assert!(bad.parse::<FrameSet>().is_err(), "{bad}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_shards_of_a_list_are_the_list(count in 1u32..20, length in 0usize..200) {
+            let list: Vec<usize> = (0..length).collect();
+            let joined: Vec<usize> = (1..=count).flat_map(|index| Shard { index, count }.of(&list)).collect();
+            prop_assert_eq!(joined, list);
+        }
+    }
+}

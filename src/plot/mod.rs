@@ -1,0 +1,34 @@
+//! Charts of a clip (paper figs. 4 to 7): ratios, change, timeline, faces with their ratios.
+//!
+//! It makes drawings from plain values; where the values come from and what file the chart goes to is not its
+//! business. Colours are told apart by colour-blind eyes (Okabe and Ito 2008), and every curve carries its letter.
+
+mod axes;
+mod curves;
+mod faces;
+mod score;
+
+pub use curves::{Samples, change, ratios};
+pub use faces::{faces, frame};
+pub use score::{Row, timeline};
+
+use crate::drawing::Colour;
+use crate::pose::Emotion;
+
+/// The colour of an emotion's curve.
+#[must_use]
+pub const fn colour_of(emotion: Emotion) -> Colour {
+    match emotion {
+        Emotion::Neutral => Colour::rgb(0x55, 0x55, 0x55),
+        Emotion::Happy => Colour::rgb(0xE6, 0x9F, 0x00),
+        Emotion::Anger => Colour::rgb(0xD5, 0x5E, 0x00),
+        Emotion::Disgust => Colour::rgb(0x00, 0x9E, 0x73),
+        Emotion::Sadness => Colour::rgb(0x00, 0x72, 0xB2),
+        Emotion::Fear => Colour::rgb(0xCC, 0x79, 0xA7),
+        Emotion::Surprised => Colour::rgb(0x56, 0xB4, 0xE9),
+    }
+}
+
+const INK: Colour = Colour::rgb(0x22, 0x22, 0x26);
+const GREY: Colour = Colour::rgb(0x6E, 0x6E, 0x76);
+const RULE: Colour = Colour::rgb(0xE2, 0xE2, 0xE6);
