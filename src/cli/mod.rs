@@ -1,6 +1,8 @@
 //! The commands: a thin face on the rooms. Every command reads its arguments, calls a room and prints; it decides
 //! nothing that a library user could want decided the same way.
 
+mod syllables;
+
 use std::io::Write;
 
 use clap::{Parser, Subcommand};
@@ -16,12 +18,16 @@ pub struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Syllables(syllables::Args),
+}
 
 /// Runs one call of the program and says how it ended: 0 done, 1 the input was at fault, 2 the call was.
 pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
-    let _ = (cli, out);
-    Ok(())
+    match &cli.command {
+        Some(Command::Syllables(args)) => syllables::run(args, out),
+        None => Ok(()),
+    }
 }
 
 /// What a failed write to standard output is called.
