@@ -15,6 +15,8 @@ pub mod timing;
 pub mod speech;
 pub mod timeline;
 pub mod figure;
+pub mod plot;
 pub mod render;
 pub mod project;
+pub mod export;
 pub mod cli;

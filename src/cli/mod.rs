@@ -1,33 +1,67 @@
 //! The commands: a thin face on the rooms. Every command reads its arguments, calls a room and prints; it decides
 //! nothing that a library user could want decided the same way.
 
+mod check;
+mod completions;
 mod convert;
+mod export;
+mod new;
+mod plot;
+mod syllables;
 
 use std::io::Write;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::disk::{Fault, Result};
 
 /// A terminal studio that makes a face talk.
 #[derive(Debug, Parser)]
-#[command(name = "lianpu", version, about, arg_required_else_help = false)]
+#[command(name = "lianpu", version, about, args_conflicts_with_subcommands = true)]
 pub struct Cli {
+    /// A folder that holds projects, or a project: opens the studio on it.
+    #[arg(value_name = "FOLDER")]
+    folder: Option<std::path::PathBuf>,
+
     #[command(subcommand)]
     command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Make a lesson from a recording and its script, from times, or from ratios.
+    New(new::Args),
+    /// Say what lessons have, lack, and have wrong.
+    Check(check::Args),
+    /// Write lessons as frames and subtitles.
+    Export(export::Args),
+    /// Draw charts of a clip: ratios, change, timeline, faces, a frame.
+    Plot(plot::Args),
     /// Turn a timing file or a ratio record into another format.
     Convert(convert::Args),
+    /// Print the syllables of a text with their readings and mouth shapes.
+    Syllables(syllables::Args),
+    /// Print what makes a shell complete this program's words.
+    Completions(completions::Args),
 }
 
-/// Runs one call of the program and says how it ended: 0 done, 1 the input was at fault, 2 the call was.
+/// Runs one call of the program.
+///
+/// # Errors
+/// With what went wrong; [`Fault::is_of_the_call`] tells whether the call (exit code 2) or the input (1) was at fault.
 pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
     match &cli.command {
+        Some(Command::New(args)) => new::run(args, out),
+        Some(Command::Check(args)) => check::run(args, out),
+        Some(Command::Export(args)) => export::run(args, out),
+        Some(Command::Plot(args)) => plot::run(args, out),
         Some(Command::Convert(args)) => convert::run(args, out),
-        None => Ok(()),
+        Some(Command::Syllables(args)) => syllables::run(args, out),
+        Some(Command::Completions(args)) => completions::run(args, out),
+        None => {
+            let help = Cli::command().render_help();
+            write!(out, "{help}").map_err(output_fault)
+        }
     }
 }
 

@@ -13,4 +13,4 @@ pub use fault::{Fault, Result};
 pub use paths::{inside, plain_name};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_text};
 pub use toml::{from_toml, nearest};
-pub use write::{Lock, write_whole};
+pub use write::{Lock, replace, write_whole};

@@ -28,6 +28,22 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     saved.map_err(|e| Fault::io("cannot save it", path, e).help("is there room, and may you write there?"))
 }
 
+/// Puts `bytes` at `path` for what can be made again, such as frames: whole or not at all for every reader, without
+/// waiting for the disk. After a power cut a file may be damaged, so whoever relies on it looks inside. The folder
+/// must be there.
+///
+/// # Errors
+/// When the file cannot be written; the old one is then untouched.
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let saved = (|| {
+        let mut file = temporary_in(folder)?;
+        file.write_all(bytes)?;
+        file.persist(path).map(drop).map_err(|e| e.error)
+    })();
+    saved.map_err(|e| Fault::io("cannot write it", path, e))
+}
+
 /// A temporary file with the rights that an ordinary program's file would get: the private ones that temporary
 /// files have by default would make a lesson unreadable to the next teacher.
 fn temporary_in(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {

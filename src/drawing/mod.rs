@@ -3,6 +3,7 @@
 //! It owns no format: `render` turns a drawing into SVG text or pixels.
 
 mod colour;
+mod fingerprint;
 
 pub use colour::Colour;
 

@@ -21,3 +21,10 @@ pub fn hermite(a: Point, da: Vec2, b: Point, db: Vec2) -> CubicBez {
 pub fn lerp(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t
 }
+
+/// The outline of a line of even width with round joints and ends.
+#[must_use]
+pub fn stroke_outline(path: &BezPath, width: f64) -> BezPath {
+    let style = kurbo::Stroke::new(width).with_caps(kurbo::Cap::Round).with_join(kurbo::Join::Round);
+    kurbo::stroke(path.iter(), &style, &kurbo::StrokeOpts::default(), 0.05)
+}

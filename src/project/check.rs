@@ -89,7 +89,8 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     }
     found.extend(clip.warnings.iter().map(|w| odd(w.clone())));
     let end = clip.duration();
-    let late = clip.score.keys.iter().filter(|k| k.time > end + 1e-6 && !matches!(k.value, KeyValue::Emotion(_))).count();
+    let late =
+        clip.score.keys.iter().filter(|k| k.time > end + 1e-6 && !matches!(k.value, KeyValue::Emotion(_))).count();
     if late > 0 {
         found.push(odd(format!("{} after its end", counted(late, "key"))));
     }

@@ -19,4 +19,5 @@ pub use clip::{Clip, LABEL_LIMIT};
 pub use create::{NewLesson, create};
 pub use history::History;
 pub use lesson::{Lesson, projects_in};
+pub(crate) use manifest::check_output;
 pub use manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};

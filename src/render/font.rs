@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
+use crate::drawing::{Drawing, Item};
 use crate::geometry::{Affine, BezPath, Point};
 
 static FACE: LazyLock<Option<Face<'static>>> =
@@ -42,6 +43,19 @@ pub fn text_width(text: &str, size: f64) -> f64 {
 pub fn uncovered(text: &str) -> Option<char> {
     let face = FACE.as_ref()?;
     text.chars().find(|c| face.glyph_index(*c).is_none())
+}
+
+/// The first character in a drawing's texts that the font has no shape for.
+#[must_use]
+pub fn uncovered_in(drawing: &Drawing) -> Option<char> {
+    fn of(item: &Item) -> Option<char> {
+        match item {
+            Item::Text(text) => uncovered(&text.text),
+            Item::Group(group) => group.items.iter().find_map(of),
+            Item::Area(_) | Item::Ink(_) => None,
+        }
+    }
+    drawing.layers.iter().flat_map(|l| &l.items).find_map(of)
 }
 
 fn advance(face: &Face<'_>, glyph: GlyphId) -> f64 {

@@ -305,29 +305,37 @@ impl Model {
     }
 }
 
-/// A lip's strokes with the links between the outermost two brought under their ink: each end of a link comes to
-/// the nearest place on a host's centre line and is no wider than the host there, so that no cap stands out.
-fn seated(mut lip: Vec<Ribbon>) -> Vec<Ribbon> {
-    let (Some(first), Some(last)) = (lip.first().copied(), lip.last().copied()) else { return lip };
-    let count = lip.len();
-    for link in lip.iter_mut().take(count.saturating_sub(1)).skip(1) {
+/// A lip's strokes with their joints brought under ink. Every end but the two corners comes no wider than the stroke
+/// it meets, so that no cap stands out, and the ends of the links between come to lie on the strokes they join.
+fn seated(lip: Vec<Ribbon>) -> Vec<Ribbon> {
+    let mut seated = lip.clone();
+    let Some(last) = lip.len().checked_sub(1).filter(|last| *last > 0) else { return lip };
+    for (i, stroke) in seated.iter_mut().enumerate() {
+        let forward = lip[i].0[0].x <= lip[i].0[3].x;
         for (end, handle) in [(0, 1), (3, 2)] {
-            let from = link.0[end];
-            let seat = [first, last]
-                .iter()
-                .map(|host| {
-                    let near = host.centre().nearest(from.point(), 1e-3);
-                    (near.distance_sq, host.eval(near.t))
+            let at_left = (end == 0) == forward;
+            if (i == 0 && at_left) || (i == last && !at_left) {
+                continue;
+            }
+            let from = stroke.0[end];
+            let others = lip.iter().enumerate().filter(|(j, _)| *j != i);
+            let nearest = others
+                .map(|(_, other)| {
+                    let near = other.centre().nearest(from.point(), 1e-3);
+                    (near.distance_sq, other.eval(near.t))
                 })
                 .min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((_, seat)) = seat {
-                link.0[end] = Knot { w: from.w.min(seat.w), ..seat };
-                link.0[handle].y += seat.y - from.y;
-                link.0[handle].w = link.0[handle].w.min(seat.w);
+            let Some((_, seat)) = nearest else { continue };
+            stroke.0[end].w = from.w.min(seat.w);
+            if i != 0 && i != last {
+                (stroke.0[end].x, stroke.0[end].y) = (seat.x, seat.y);
+                stroke.0[handle].x += seat.x - from.x;
+                stroke.0[handle].y += seat.y - from.y;
+                stroke.0[handle].w = stroke.0[handle].w.min(seat.w);
             }
         }
     }
-    lip
+    seated
 }
 
 /// A lip's centre line from left to right: its outermost two strokes, bridged in the middle where they stop short of
