@@ -1,0 +1,69 @@
+//! A room uses only the rooms before it in `src/lib.rs`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// The rooms in their order.
+fn rooms() -> Vec<String> {
+    let map = fs::read_to_string(root().join("lib.rs")).unwrap();
+    map.lines().filter_map(|l| l.strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned)).collect()
+}
+
+fn files_of(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files_of(&path, files);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+}
+
+/// The rooms named after `crate::` in a file's own code; its tests may look ahead.
+fn used(text: &str) -> Vec<(usize, String)> {
+    let own = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let mut found = Vec::new();
+    for (number, line) in own.lines().enumerate() {
+        if line.trim_start().starts_with("//") {
+            continue;
+        }
+        for part in line.split("crate::").skip(1) {
+            let name: String = part.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+            found.push((number + 1, name));
+        }
+    }
+    found
+}
+
+#[test]
+fn a_room_uses_only_the_rooms_before_it() {
+    let rooms = rooms();
+    assert!(rooms.len() >= 16, "the map in lib.rs is not read: {rooms:?}");
+    let mut wrong = Vec::new();
+    for (place, room) in rooms.iter().enumerate() {
+        let mut files = Vec::new();
+        files_of(&root().join(room), &mut files);
+        for file in files {
+            for (line, name) in used(&fs::read_to_string(&file).unwrap()) {
+                let at = rooms.iter().position(|r| *r == name);
+                if at.is_none_or(|at| at > place) {
+                    wrong.push(format!("{}:{line} in `{room}` uses `{name}`", file.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_room_opens_by_saying_what_it_owns() {
+    for room in rooms() {
+        let text = fs::read_to_string(root().join(&room).join("mod.rs")).unwrap();
+        assert!(text.starts_with("//! "), "{room}");
+    }
+}
