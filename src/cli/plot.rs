@@ -4,12 +4,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::output_fault;
-use crate::disk::{Fault, Result, write_whole};
+use crate::disk::{Fault, Result, read_bytes, write_whole};
 use crate::drawing::Drawing;
 use crate::plot;
 use crate::pose::{Emotion, Pose, Ratios};
 use crate::project::Lesson;
-use crate::render::{MAX_SIDE, Painter, encode_png, to_svg};
+use crate::render::{FontFile, MAX_SIDE, Painter, encode_png, to_svg, uncovered_in};
 use crate::timeline::Timeline;
 
 /// Draw charts of a clip.
@@ -30,6 +30,9 @@ pub struct Args {
     /// Where to, an .svg or .png file; PROJECT/export/CLIP-WHAT.svg where left out.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// A font with Chinese characters for .png files; without one they are drawn as Pinyin.
+    #[arg(long, value_name = "FILE")]
+    font: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -92,7 +95,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         Some(path) => path.clone(),
         None => args.project.join("export").join(format!("{}-{name}.svg", clip.entry.name)),
     };
-    write_chart(&path, &drawing)?;
+    write_chart(&path, drawing, args.font.as_deref())?;
     writeln!(out, "{}", path.display()).map_err(output_fault)
 }
 
@@ -102,7 +105,7 @@ fn score_of(title: &str, clip: &crate::project::Clip, timeline: &Timeline, sampl
     let guessed = if clip.timing.guessed { "guessed" } else { "script" };
     let said = clip.intervals().iter().zip(&clip.syllables);
     let text = said.clone().map(|(i, s)| (i.start, i.end, s.text.clone())).collect();
-    let sounds = said.map(|(i, s)| (i.start, i.end, s.pinyin.clone())).collect();
+    let sounds = said.map(|(i, s)| (i.start, i.end, crate::script::with_marks(&s.pinyin))).collect();
     let shapes = timeline
         .mouth_keys()
         .iter()
@@ -118,17 +121,25 @@ fn score_of(title: &str, clip: &crate::project::Clip, timeline: &Timeline, sampl
     plot::timeline(title, duration, &peaks, &rows, samples)
 }
 
+/// The largest font file that is read; fonts of all Chinese characters have some 20 MB.
+const MAX_FONT_BYTES: u64 = 200 << 20;
+
 /// Writes a chart as what its file's name says.
-fn write_chart(path: &Path, drawing: &Drawing) -> Result<()> {
+fn write_chart(path: &Path, mut drawing: Drawing, font: Option<&Path>) -> Result<()> {
     let size = |v: f64| (v.ceil() as u32).clamp(1, MAX_SIDE);
     let (width, height) = (size(drawing.view.width()), size(drawing.view.height()));
     match path.extension().and_then(|e| e.to_str()) {
-        Some("svg") => write_whole(path, to_svg(drawing, width, height).as_bytes()),
+        Some("svg") => write_whole(path, to_svg(&drawing, width, height).as_bytes()),
         Some("png") => {
-            if let Some(c) = crate::render::uncovered_in(drawing) {
-                eprintln!("note: the chart's font has no `{c}` and draws a box; an .svg file keeps the text");
+            let font = font
+                .map(|file| read_bytes(file, MAX_FONT_BYTES).and_then(FontFile::new).map_err(|f| f.at(file)))
+                .transpose()?;
+            if font.is_none() && uncovered_in(&drawing).is_some() {
+                eprintln!("note: Chinese is drawn as Pinyin; give --font FILE with the characters, or an .svg file");
+                drawing = drawing.with_texts(&crate::script::in_latin);
             }
-            write_whole(path, &encode_png(&Painter::new(width, height)?.paint(drawing), "")?)
+            let picture = Painter::new(width, height)?.with_font(font).paint(&drawing);
+            write_whole(path, &encode_png(&picture, "")?)
         }
         _ => Err(Fault::new(format!("`{}` ends in neither .svg nor .png", path.display()))
             .help("name the chart's file so")

@@ -141,6 +141,20 @@ impl Item {
 }
 
 impl Drawing {
+    /// The same drawing with every text put through `say`.
+    #[must_use]
+    pub fn with_texts(mut self, say: &dyn Fn(&str) -> String) -> Self {
+        fn change(item: &mut Item, say: &dyn Fn(&str) -> String) {
+            match item {
+                Item::Text(text) => text.text = say(&text.text),
+                Item::Group(group) => group.items.iter_mut().for_each(|item| change(item, say)),
+                Item::Area(_) | Item::Ink(_) => {}
+            }
+        }
+        self.layers.iter_mut().flat_map(|l| &mut l.items).for_each(|item| change(item, say));
+        self
+    }
+
     /// The drawing as one thing that fits into `frame` of another drawing, centred: how sheets are made.
     #[must_use]
     pub fn placed_in(&self, frame: Rect) -> Item {

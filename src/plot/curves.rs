@@ -11,7 +11,8 @@ pub type Samples = [(f64, Ratios)];
 
 const WIDTH: f64 = 1200.0;
 
-/// The seven ratios over time in one chart. Letters stand at both ends of the curves, kept apart from each other.
+/// The seven ratios over time in one chart. A letter stands over
+/// each curve's highest place and at its end, so that no curve is told by colour alone.
 #[must_use]
 pub fn ratios(title: &str, samples: &Samples) -> Drawing {
     let (low, high) = bounds(samples.iter().flat_map(|(_, r)| r.0));
@@ -27,6 +28,7 @@ pub fn ratios(title: &str, samples: &Samples) -> Drawing {
         let points = samples.iter().map(|(t, r)| (*t, r[emotion]));
         items.push(axes.curve(emotion.name(), points, 2.4, colour_of(emotion)));
     }
+    items.extend(peak_letters(&axes, samples));
     items.extend(end_labels(&axes, samples));
     chart(title, "The seven emotion ratios over time.", WIDTH, 560.0, items)
 }
@@ -76,6 +78,20 @@ pub(super) fn times(samples: &Samples) -> (f64, f64) {
 
 fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// The letter of each emotion over the middle of its highest stretch, where it rises enough to be looked for.
+pub(super) fn peak_letters(axes: &Axes, samples: &Samples) -> Vec<Item> {
+    let letter = |emotion: Emotion| {
+        let most = samples.iter().map(|s| s.1[emotion]).fold(f64::NEG_INFINITY, f64::max);
+        let first = samples.iter().position(|s| s.1[emotion] >= most - 1e-3)?;
+        let length = samples[first..].iter().take_while(|s| s.1[emotion] >= most - 1e-3).count();
+        let time = samples.get(first + length / 2)?.0;
+        let at = Point::new(axes.x(time), axes.y(most) - 6.0);
+        let text = emotion.letter().to_string();
+        (most > 0.08).then(|| Item::text(at, TEXT + 1.0, Anchor::Middle, colour_of(emotion), text))
+    };
+    Emotion::ALL.into_iter().filter_map(letter).collect()
 }
 
 /// Name and letter of each curve at its right end, moved apart where ends are close.

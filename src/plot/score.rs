@@ -1,7 +1,7 @@
 //! A clip's whole score in one picture: sound, syllables, mouth shapes, ratios.
 
 use super::axes::{Axes, TEXT, block, chart, rule};
-use super::curves::{Samples, heading};
+use super::curves::{Samples, heading, peak_letters};
 use super::{GREY, INK, RULE, colour_of};
 use crate::drawing::{Anchor, Colour, Drawing, Item};
 use crate::geometry::{BezPath, Point, Rect};
@@ -72,5 +72,6 @@ pub fn timeline(title: &str, duration: f64, peaks: &[(f32, f32)], rows: &[Row<'_
         let at = Point::new(LEFT + 90.0 * emotion.index() as f64 + 60.0, top + 240.0 + 44.0);
         items.push(Item::text(at, TEXT, Anchor::Start, colour_of(emotion), format!("{} {emotion}", emotion.letter())));
     }
+    items.extend(peak_letters(&chart_axes, samples));
     chart(title, "Sound, syllables, mouth shapes and emotion ratios over time.", 1400.0, top + 310.0, items)
 }

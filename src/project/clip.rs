@@ -6,7 +6,7 @@ use super::manifest::ClipEntry;
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
-use crate::script::{self, OnsetPreset, Syllable, System};
+use crate::script::{self, OnsetPreset, Reading, Syllable, System};
 use crate::speech::Sound;
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Interval, Tier, Timing};
@@ -229,18 +229,19 @@ fn sound_file(folder: &Path) -> Result<Option<PathBuf>> {
 /// Whether a tier's label can stand for a syllable: the same text, or a reading that it can have.
 fn label_fits(syllable: &Syllable, label: &str) -> bool {
     let label = label.trim();
-    if label.eq_ignore_ascii_case(&syllable.text) || label_text(label) == syllable.text {
-        return true;
-    }
-    let Some(reading) = script::reading(label, System::Auto) else { return false };
-    if syllable.sound() == Some(reading.sound()) {
-        return true;
-    }
+    label.eq_ignore_ascii_case(&syllable.text)
+        || label_text(label) == syllable.text
+        || script::readings(label, System::Auto).iter().any(|reading| can_have(syllable, reading))
+}
+
+/// Whether a syllable can be read so: as it is, or as its character is elsewhere.
+fn can_have(syllable: &Syllable, reading: &Reading) -> bool {
     let mut letters = syllable.text.chars();
-    match (letters.next(), letters.next()) {
-        (Some(c), None) => script::readings_of(c).iter().any(|known| known.sound() == reading.sound()),
-        _ => false,
-    }
+    syllable.sound() == Some(reading.sound())
+        || match (letters.next(), letters.next()) {
+            (Some(c), None) => script::readings_of(c).iter().any(|known| known.sound() == reading.sound()),
+            _ => false,
+        }
 }
 
 /// The character before a forced reading: 行 of `行{hang2}`.
@@ -248,15 +249,19 @@ fn label_text(label: &str) -> &str {
     label.split('{').next().unwrap_or(label).trim()
 }
 
-/// The reading that a label gives beyond its character: of `行{hang2}` or of `hang2`.
-fn label_reading(syllable: &Syllable, label: &str) -> Option<script::Reading> {
+/// The reading that a label gives beyond its character: of `行{hang2}` or of `hang2`. A bare sound without its tone
+/// says nothing new about a syllable that has that sound.
+fn label_reading(syllable: &Syllable, label: &str) -> Option<Reading> {
     let label = label.trim();
-    let forced = label.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}'));
-    match forced {
-        Some(reading) => script::reading(reading, System::Auto),
-        None if label.eq_ignore_ascii_case(&syllable.text) => None,
-        None => script::reading(label, System::Auto),
+    if let Some(forced) = label.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}')) {
+        return script::reading(forced, System::Auto);
     }
+    if label.eq_ignore_ascii_case(&syllable.text) {
+        return None;
+    }
+    let reading = script::readings(label, System::Auto).into_iter().find(|r| can_have(syllable, r))?;
+    let says_less = reading.tone().is_none() && syllable.sound() == Some(reading.sound());
+    (!says_less).then_some(reading)
 }
 
 /// Mouth shapes with times of their own: touching ones are one utterance.

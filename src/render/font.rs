@@ -5,43 +5,76 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
+use crate::disk::{Fault, Result};
 use crate::drawing::{Drawing, Item};
 use crate::geometry::{Affine, BezPath, Point};
 
-static FACE: LazyLock<Option<Face<'static>>> =
+static OURS: LazyLock<Option<Face<'static>>> =
     LazyLock::new(|| Face::parse(include_bytes!("font/inter-latin.otf"), 0).ok());
 
-/// The outline of a line of text that starts at (0, 0) on the baseline with an em of `size`. A character that the
-/// font lacks is drawn as its empty box.
+/// A font file that a person gives for what ours lacks, such as Chinese.
+#[derive(Debug, Clone)]
+pub struct FontFile(Vec<u8>);
+
+impl FontFile {
+    /// Takes the bytes of a TrueType or OpenType file, or of a collection (its first font).
+    ///
+    /// # Errors
+    /// When they are no such file.
+    pub fn new(bytes: Vec<u8>) -> Result<Self> {
+        match Face::parse(&bytes, 0) {
+            Ok(_) => Ok(Self(bytes)),
+            Err(e) => {
+                Err(Fault::new(format!("this is no font that can be read: {e}")).help("give a .ttf, .otf or .ttc file"))
+            }
+        }
+    }
+
+    fn face(&self) -> Option<Face<'_>> {
+        Face::parse(&self.0, 0).ok()
+    }
+}
+
+/// The outline of a line of text that starts at (0, 0) on the baseline with an em of `size`. What our font lacks is
+/// taken from `other`; what both lack is an empty box.
 #[must_use]
-pub fn text_outline(text: &str, size: f64) -> BezPath {
+pub fn text_outline(text: &str, size: f64, other: Option<&FontFile>) -> BezPath {
     let mut path = BezPath::new();
-    let Some(face) = FACE.as_ref() else { return path };
-    let scale = size / f64::from(face.units_per_em());
-    let mut x = 0.0;
-    for c in text.chars() {
-        let glyph = face.glyph_index(c).unwrap_or(GlyphId(0));
+    walk(text, size, other, &mut |face, glyph, x, scale| {
         let mut pen = Pen(BezPath::new());
         face.outline_glyph(glyph, &mut pen);
         // Fonts have y upward.
         path.extend((Affine::translate((x, 0.0)) * Affine::scale_non_uniform(scale, -scale) * pen.0).iter());
-        x += advance(face, glyph) * scale;
-    }
+    });
     path
 }
 
 /// How wide that line is.
 #[must_use]
-pub fn text_width(text: &str, size: f64) -> f64 {
-    let Some(face) = FACE.as_ref() else { return 0.0 };
-    let scale = size / f64::from(face.units_per_em());
-    text.chars().map(|c| advance(face, face.glyph_index(c).unwrap_or(GlyphId(0))) * scale).sum()
+pub fn text_width(text: &str, size: f64, other: Option<&FontFile>) -> f64 {
+    walk(text, size, other, &mut |_, _, _, _| {})
 }
 
-/// The first character of `text` that the font has no shape for.
+/// Goes through a line glyph by glyph: face, glyph, place and scale. Returns where it ends.
+fn walk(text: &str, size: f64, other: Option<&FontFile>, each: &mut dyn FnMut(&Face<'_>, GlyphId, f64, f64)) -> f64 {
+    let Some(ours) = OURS.as_ref() else { return 0.0 };
+    let other = other.and_then(FontFile::face);
+    let mut x = 0.0;
+    for c in text.chars() {
+        let found = ours.glyph_index(c).map(|g| (ours, g));
+        let found = found.or_else(|| other.as_ref().and_then(|face| Some((face, face.glyph_index(c)?))));
+        let (face, glyph) = found.unwrap_or((ours, GlyphId(0)));
+        let scale = size / f64::from(face.units_per_em());
+        each(face, glyph, x, scale);
+        x += f64::from(face.glyph_hor_advance(glyph).unwrap_or(0)) * scale;
+    }
+    x
+}
+
+/// The first character of `text` that our font has no shape for.
 #[must_use]
 pub fn uncovered(text: &str) -> Option<char> {
-    let face = FACE.as_ref()?;
+    let face = OURS.as_ref()?;
     text.chars().find(|c| face.glyph_index(*c).is_none())
 }
 
@@ -56,10 +89,6 @@ pub fn uncovered_in(drawing: &Drawing) -> Option<char> {
         }
     }
     drawing.layers.iter().flat_map(|l| &l.items).find_map(of)
-}
-
-fn advance(face: &Face<'_>, glyph: GlyphId) -> f64 {
-    f64::from(face.glyph_hor_advance(glyph).unwrap_or(0))
 }
 
 struct Pen(BezPath);
@@ -98,6 +127,6 @@ mod tests {
     fn the_font_has_every_letter_of_pinyin_and_says_what_it_lacks() {
         assert_eq!(uncovered("nǐ hǎo, lǜ ér ǖǘǚ Xī'ān – 0.25 s"), None);
         assert_eq!(uncovered("a您"), Some('您'));
-        assert!(text_width("mm", 10.0) > text_width("ii", 10.0));
+        assert!(text_width("mm", 10.0, None) > text_width("ii", 10.0, None));
     }
 }

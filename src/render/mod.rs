@@ -7,7 +7,7 @@ mod pixels;
 mod png;
 mod svg;
 
-pub use font::{text_outline, text_width, uncovered, uncovered_in};
+pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::{Painter, Picture};
 pub use png::{decode_key, encode_png};
 pub use svg::to_svg;

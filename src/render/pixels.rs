@@ -2,7 +2,7 @@
 
 use tiny_skia::{FillRule, Mask, Paint, PathBuilder, Pixmap, Transform};
 
-use super::{MAX_SIDE, TOLERANCE, text_outline, text_width};
+use super::{FontFile, MAX_SIDE, TOLERANCE, text_outline, text_width};
 use crate::disk::{Fault, Result};
 use crate::drawing::{Anchor, Colour, Drawing, Item, Layer, fit};
 use crate::geometry::{Affine, BezPath, PathEl, Rect, outline};
@@ -36,6 +36,7 @@ pub struct Painter {
     height: u32,
     canvas: Pixmap,
     kept: Option<Kept>,
+    font: Option<FontFile>,
 }
 
 /// What the start of every drawing so far had in common, painted.
@@ -55,11 +56,18 @@ impl Painter {
         let fits = |side| (1..=MAX_SIDE).contains(&side);
         Pixmap::new(width, height)
             .filter(|_| fits(width) && fits(height))
-            .map(|canvas| Self { width, height, canvas, kept: None })
+            .map(|canvas| Self { width, height, canvas, kept: None, font: None })
             .ok_or_else(|| {
                 Fault::new(format!("a picture cannot be {width} × {height} pixels"))
                     .help(format!("give sides from 1 to {MAX_SIDE}"))
             })
+    }
+
+    /// The same painter, with a font for what ours lacks.
+    #[must_use]
+    pub fn with_font(mut self, font: Option<FontFile>) -> Self {
+        self.font = font;
+        self
     }
 
     /// Paints one drawing.
@@ -75,7 +83,7 @@ impl Painter {
             .is_some_and(|k| k.view == drawing.view && k.background == drawing.background && k.layers == still);
         if !same {
             self.canvas.fill(drawing.background.map_or(tiny_skia::Color::TRANSPARENT, skia_colour));
-            paint_layers(&mut self.canvas, still, place);
+            paint_layers(&mut self.canvas, still, place, self.font.as_ref());
             self.kept = Some(Kept {
                 view: drawing.view,
                 background: drawing.background,
@@ -85,7 +93,7 @@ impl Painter {
         } else if let Some(kept) = &self.kept {
             self.canvas.data_mut().copy_from_slice(kept.pixels.data());
         }
-        paint_layers(&mut self.canvas, moving, place);
+        paint_layers(&mut self.canvas, moving, place, self.font.as_ref());
         let opaque = drawing.background.is_some_and(|c| c.a == 255);
         Picture { width: self.width, height: self.height, rgba: straight(&self.canvas, opaque) }
     }
@@ -108,15 +116,15 @@ fn skia_colour(c: Colour) -> tiny_skia::Color {
     tiny_skia::Color::from_rgba8(c.r, c.g, c.b, c.a)
 }
 
-fn paint_layers(canvas: &mut Pixmap, layers: &[Layer], place: Affine) {
+fn paint_layers(canvas: &mut Pixmap, layers: &[Layer], place: Affine, font: Option<&FontFile>) {
     for layer in layers {
         for item in &layer.items {
-            paint_item(canvas, item, place, None);
+            paint_item(canvas, item, place, None, font);
         }
     }
 }
 
-fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mask>) {
+fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mask>, font: Option<&FontFile>) {
     match item {
         Item::Area(area) => fill(canvas, &area.path, area.colour, place, mask),
         Item::Ink(ink) => fill(canvas, &outline(&ink.strokes, TOLERANCE), ink.colour, place, mask),
@@ -126,15 +134,16 @@ fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mas
                 Anchor::Middle => 0.5,
                 Anchor::End => 1.0,
             };
-            let start = text.at.to_vec2() - crate::geometry::Vec2::new(share * text_width(&text.text, text.size), 0.0);
-            let path = Affine::translate(start) * text_outline(&text.text, text.size);
+            let start =
+                text.at.to_vec2() - crate::geometry::Vec2::new(share * text_width(&text.text, text.size, font), 0.0);
+            let path = Affine::translate(start) * text_outline(&text.text, text.size, font);
             fill(canvas, &path, text.colour, place, mask);
         }
         Item::Group(group) => {
             let place = place * group.transform;
             let clip = group.clip.as_ref().map(|path| clip_mask(canvas, path, place, mask));
             for item in &group.items {
-                paint_item(canvas, item, place, clip.as_ref().or(mask));
+                paint_item(canvas, item, place, clip.as_ref().or(mask), font);
             }
         }
     }

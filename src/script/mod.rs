@@ -11,6 +11,7 @@
 mod detect;
 mod english;
 mod han;
+mod marks;
 mod numbers;
 mod numerals;
 mod onsets;
@@ -28,6 +29,7 @@ mod words;
 mod zhuyin;
 
 pub use han::{is_han, readings_of};
+pub use marks::{in_latin, with_marks};
 pub use onsets::{OnsetPreset, onsets};
 pub use phone::{Phone, shapes_of};
 pub use reading::{Reading, reading, readings};
