@@ -277,7 +277,11 @@ impl Mouth {
 impl Model {
     /// The model's parameter where a lip crosses `x`, from −1 at the left corner to 1 at the right one.
     fn parameter_at(&self, x: f64) -> f64 {
-        let target = x.abs().min(self.upper.p3.x);
+        let target = x.abs();
+        // A corner is a corner, not nearly one: both lips must reach it at the same place.
+        if target >= self.upper.p3.x - 1e-6 {
+            return 1f64.copysign(x);
+        }
         let (mut low, mut high) = (0.0, 1.0);
         // x grows along a half lip, so halving finds the place; 40 halvings leave 1e-12.
         for _ in 0..40 {
@@ -306,36 +310,45 @@ impl Model {
 }
 
 /// A lip's strokes with their joints brought under ink. Every end but the two corners comes no wider than the stroke
-/// it meets, so that no cap stands out, and the ends of the links between come to lie on the strokes they join.
-fn seated(lip: Vec<Ribbon>) -> Vec<Ribbon> {
-    let mut seated = lip.clone();
+/// it meets, so that no cap stands out, and the ends of the links between come to lie on the strokes they join. Links
+/// lean on each other, so a few rounds settle them: each moves an end by less than a tenth of the one before.
+fn seated(mut lip: Vec<Ribbon>) -> Vec<Ribbon> {
+    const ROUNDS: usize = 4;
     let Some(last) = lip.len().checked_sub(1).filter(|last| *last > 0) else { return lip };
-    for (i, stroke) in seated.iter_mut().enumerate() {
-        let forward = lip[i].0[0].x <= lip[i].0[3].x;
-        for (end, handle) in [(0, 1), (3, 2)] {
-            let at_left = (end == 0) == forward;
-            if (i == 0 && at_left) || (i == last && !at_left) {
-                continue;
-            }
-            let from = stroke.0[end];
-            let others = lip.iter().enumerate().filter(|(j, _)| *j != i);
-            let nearest = others
-                .map(|(_, other)| {
-                    let near = other.centre().nearest(from.point(), 1e-3);
-                    (near.distance_sq, other.eval(near.t))
-                })
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, seat)) = nearest else { continue };
-            stroke.0[end].w = from.w.min(seat.w);
-            if i != 0 && i != last {
-                (stroke.0[end].x, stroke.0[end].y) = (seat.x, seat.y);
-                stroke.0[handle].x += seat.x - from.x;
-                stroke.0[handle].y += seat.y - from.y;
-                stroke.0[handle].w = stroke.0[handle].w.min(seat.w);
+    for _ in 0..ROUNDS {
+        for i in 0..lip.len() {
+            let forward = lip[i].0[0].x <= lip[i].0[3].x;
+            for (end, handle) in [(0, 1), (3, 2)] {
+                let at_left = (end == 0) == forward;
+                if (i == 0 && at_left) || (i == last && !at_left) {
+                    continue;
+                }
+                let from = lip[i].0[end];
+                let Some(seat) = nearest_ink(&lip, i, from.point()) else { continue };
+                let knots = &mut lip[i].0;
+                knots[end].w = from.w.min(seat.w);
+                if i != 0 && i != last {
+                    (knots[end].x, knots[end].y) = (seat.x, seat.y);
+                    knots[handle].x += seat.x - from.x;
+                    knots[handle].y += seat.y - from.y;
+                    knots[handle].w = knots[handle].w.min(seat.w);
+                }
             }
         }
     }
-    seated
+    lip
+}
+
+/// The nearest place on the centre lines of a lip's strokes other than the one numbered `but`.
+fn nearest_ink(lip: &[Ribbon], but: usize, to: Point) -> Option<Knot> {
+    let others = lip.iter().enumerate().filter(|(i, _)| *i != but);
+    others
+        .map(|(_, other)| {
+            let near = other.centre().nearest(to, 1e-3);
+            (near.distance_sq, other.eval(near.t))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, knot)| knot)
 }
 
 /// A lip's centre line from left to right: its outermost two strokes, bridged in the middle where they stop short of
