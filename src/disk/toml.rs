@@ -12,14 +12,14 @@ pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T> {
     toml::from_str(text).map_err(|error| {
         let line = error.span().map(|s| 1 + text[..s.start.min(text.len())].matches('\n').count());
         let message = error.message().trim();
-        let fault = match unknown_key(message) {
-            Some((key, known)) => {
-                let near = nearest(key, &known);
-                let help = match near {
-                    Some(near) => format!("did you mean `{near}`? known here: {}", known.join(", ")),
-                    None => format!("known here: {}", known.join(", ")),
-                };
-                Fault::new(format!("unknown key `{key}`")).help(help)
+        let fault = match unknown(message) {
+            Some((what, word, known)) => {
+                let near = nearest(word, &known).map(|n| format!("did you mean `{n}`? ")).unwrap_or_default();
+                Fault::new(format!("unknown {what} `{word}`")).help(format!("{near}known here: {}", known.join(", ")))
+            }
+            None if message.starts_with("missing field") => {
+                let key = message.split('`').nth(1).unwrap_or_default();
+                Fault::new(format!("there is no `{key}`")).help(format!("add `{key} = …`"))
             }
             None => Fault::new(message.lines().collect::<Vec<_>>().join("; ")),
         };
@@ -30,12 +30,14 @@ pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T> {
     })
 }
 
-/// Takes serde's "unknown field `x`, expected one of `a`, `b`" apart.
-fn unknown_key(message: &str) -> Option<(&str, Vec<&str>)> {
-    let rest = message.strip_prefix("unknown field `")?;
-    let (key, rest) = rest.split_once('`')?;
-    let known = rest.split('`').skip(1).step_by(2).collect();
-    Some((key, known))
+/// Takes serde's "unknown field `x`, expected one of `a`, `b`" apart, and the same of variants.
+fn unknown(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
+    let (what, rest) = match message.strip_prefix("unknown field `") {
+        Some(rest) => ("key", rest),
+        None => ("word", message.strip_prefix("unknown variant `")?),
+    };
+    let (word, rest) = rest.split_once('`')?;
+    Some((what, word, rest.split('`').skip(1).step_by(2).collect()))
 }
 
 /// The known word that is fewest edits from `word`, where that is few enough to be meant.

@@ -1,0 +1,184 @@
+//! The program as its users call it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn lianpu(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lianpu")).args(args).output().unwrap()
+}
+
+fn project(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").join(name).display().to_string()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn done(args: &[&str]) -> String {
+    let output = lianpu(args);
+    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+fn fails(args: &[&str], code: i32, word: &str) {
+    let output = lianpu(args);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {said}");
+    assert!(said.contains(word), "{args:?} does not say `{word}`: {said}");
+}
+
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut all: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .flatten()
+        .map(|e| (e.file_name().to_string_lossy().into_owned(), std::fs::read(e.path()).unwrap()))
+        .collect();
+    all.sort();
+    all
+}
+
+fn export(out: &Path, more: &[&str]) -> String {
+    let nihao = project("nihao");
+    let out = out.display().to_string();
+    let mut args = vec!["export", nihao.as_str(), "--to", "png,svg", "--out", &out, "--size", "320x180"];
+    args.extend(more);
+    done(&args)
+}
+
+#[test]
+fn the_sample_lesson_exports_every_frame_at_its_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let printed = export(folder.path(), &[]);
+    let clip = folder.path().join("nihao");
+    assert_eq!(printed.trim(), clip.display().to_string());
+    let frames = files(&clip);
+    // 1.733741 s at 25 frames a second.
+    assert_eq!(frames.len(), 2 * 44);
+    assert_eq!(frames[0].0, "000000.png");
+    let header = &frames[0].1[16..24];
+    assert_eq!(header, [0, 0, 1, 64, 0, 0, 0, 180]);
+    let svg = text(&frames[1].1);
+    for part in ["<g id=\"static\">", "<g id=\"dynamic\">", "<title", "<desc", "id=\"upper-lip\"", "id=\"rbow\""] {
+        assert!(svg.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn an_export_run_again_writes_only_what_is_missing_damaged_or_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path(), &[]);
+    let clip = folder.path().join("nihao");
+    let before = files(&clip);
+    std::fs::remove_file(clip.join("000003.png")).unwrap();
+    std::fs::write(clip.join("000004.png"), &before[8].1[..200]).unwrap();
+    std::fs::write(clip.join("000005.svg"), "<svg/>").unwrap();
+    let nihao = project("nihao");
+    let out = folder.path().display().to_string();
+    let output = lianpu(&["export", &nihao, "--to", "png,svg", "--out", &out, "--size", "320x180"]);
+    assert!(text(&output.stderr).contains("3 files written, 85 already there"), "{}", text(&output.stderr));
+    assert_eq!(files(&clip), before);
+}
+
+#[test]
+fn frames_of_a_longer_export_are_removed_and_files_of_others_are_not() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path(), &["--fps", "30"]);
+    let clip = folder.path().join("nihao");
+    std::fs::write(clip.join("000099.png"), "somebody's own").unwrap();
+    export(folder.path(), &[]);
+    let names: Vec<String> = files(&clip).into_iter().map(|f| f.0).collect();
+    assert!(!names.contains(&"000044.png".to_owned()));
+    assert!(names.contains(&"000099.png".to_owned()));
+}
+
+#[test]
+fn shards_and_threads_change_no_byte() {
+    let (whole, parts) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    export(whole.path(), &["--jobs", "1"]);
+    for shard in ["1/3", "2/3", "3/3"] {
+        export(parts.path(), &["--jobs", "2", "--shard", shard]);
+    }
+    assert_eq!(files(&whole.path().join("nihao")), files(&parts.path().join("nihao")));
+}
+
+#[test]
+fn frames_count_inclusively() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path(), &["--frames", "3-5,7"]);
+    let names: Vec<String> = files(&folder.path().join("nihao")).into_iter().map(|f| f.0).collect();
+    assert_eq!(names.iter().filter(|n| n.ends_with("png")).count(), 4);
+}
+
+#[test]
+fn her_own_recording_and_script_become_a_lesson_that_exports() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let speech = project("nihao") + "/clips/nihao/speech.wav";
+    std::fs::write(at("script.txt"), "您好").unwrap();
+    let said = done(&["new", &at("mine"), "--speech", &speech, "--script", &at("script.txt")]);
+    assert!(said.contains("guessed") && said.contains("lianpu export"), "{said}");
+    assert!(done(&["check", &at("mine")]).contains("guessed"));
+    done(&["export", &at("mine"), "--to", "png", "--frames", "0-3"]);
+    assert!(PathBuf::from(at("mine/export/mine/000003.png")).is_file());
+    fails(&["new", &at("mine"), "--ratios", &at("x")], 1, "already there");
+}
+
+#[test]
+fn a_lesson_that_cannot_be_made_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let speech = project("nihao") + "/clips/nihao/speech.wav";
+    std::fs::write(at("ambiguous.txt"), "ci e").unwrap();
+    std::fs::write(at("silence.wav"), "RIFF").unwrap();
+    fails(&["new", &at("a"), "--speech", &speech, "--script", &at("ambiguous.txt")], 1, "--from");
+    fails(&["new", &at("b"), "--speech", &at("silence.wav"), "--script", &at("ambiguous.txt")], 1, "silence.wav");
+    fails(&["new", &at("c"), "--speech", &speech], 2, "--script");
+    fails(&["new", &at("d")], 2, "--ratios");
+    let left: Vec<String> = files(folder.path()).into_iter().map(|f| f.0).collect();
+    assert_eq!(left, ["ambiguous.txt", "silence.wav"]);
+}
+
+#[test]
+fn every_chart_is_drawn_as_svg_and_as_png() {
+    let folder = tempfile::tempdir().unwrap();
+    let nihao = project("nihao");
+    for what in ["ratios", "change", "timeline", "faces", "frame"] {
+        for form in ["svg", "png"] {
+            let path = folder.path().join(format!("{what}.{form}")).display().to_string();
+            let mut args = vec!["plot", nihao.as_str(), "--what", what, "--out", &path];
+            if what == "frame" {
+                args.extend(["--at", "1.0"]);
+            }
+            assert_eq!(done(&args).trim(), path);
+            assert!(std::fs::metadata(&path).unwrap().len() > 2000, "{path}");
+        }
+    }
+    fails(&["plot", &nihao, "--what", "frame"], 2, "--at");
+    fails(&["plot", &nihao, "--what", "frame", "--at", "99"], 2, "lasts");
+}
+
+#[test]
+fn wrong_calls_and_wrong_inputs_are_told_apart_and_say_what_to_do() {
+    let nihao = project("nihao");
+    fails(&["export", &nihao, "--to", "pgn"], 2, "formats: svg, png");
+    fails(&["export", &nihao, "--to", "png", "--clip", "nihoa"], 2, "did you mean `nihao`");
+    fails(&["export", &nihao, "--to", "png", "--frames", "9-999"], 2, "44 frames");
+    fails(&["export", &nihao, "--to", "png", "--size", "100000x1"], 2, "16384");
+    fails(&["export", "/nowhere", "--to", "png"], 1, "lianpu new");
+    fails(&["check", "/nowhere"], 1, "wrong");
+}
+
+#[test]
+fn json_lines_can_be_read_by_machines() {
+    let folder = tempfile::tempdir().unwrap();
+    let printed = export(folder.path(), &["--json", "--frames", "0-9"]);
+    let line: serde_json::Value = serde_json::from_str(printed.trim()).unwrap();
+    assert_eq!(line["frames"], 10);
+    assert_eq!(line["written"], 20);
+}
+
+#[test]
+fn without_a_terminal_the_program_prints_its_help() {
+    assert!(done(&[]).contains("Usage: lianpu"));
+}
