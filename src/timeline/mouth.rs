@@ -266,7 +266,9 @@ fn give_way(keys: &mut [MouthKey]) {
         if !shape_is_open || before.shape.is_none() && after.shape.is_none() {
             continue;
         }
-        let room = after.time - before.until;
+        // The last sound of an utterance has the time until its end, and half the way to rest.
+        let leaves = if after.shape.is_none() { key.until + 0.5 * RELEASE } else { after.time };
+        let room = leaves - before.until;
         let reached = (room / (2.0 * FULL_TARGET)).clamp(LEAST_TARGET, 1.0);
         if reached < 1.0 {
             let between = before.pose.lerp(&after.pose, 0.5);
@@ -353,7 +355,10 @@ mod tests {
             let word = |length: f64| -> Vec<Spoken> { (0..6).map(|i| ba(0.3 + f64::from(i) * length, length)).collect() };
             let widest = |spoken: &[Spoken]| {
                 let line = timeline(spoken, 25.0, &Score::default());
-                (30..100).map(|i| line.mouth(f64::from(i) * 0.01).0.opening()).fold(0.0, f64::max)
+                // Without the last syllable, which has the pause to open in.
+                let end = spoken[spoken.len() - 2].end;
+                let times = (0..200).map(|i| 0.3 + f64::from(i) * 0.01).take_while(|t| *t < end);
+                times.map(|t| line.mouth(t).0.opening()).fold(0.0, f64::max)
             };
             prop_assert!(widest(&word(length)) < widest(&word(0.4)));
         }
