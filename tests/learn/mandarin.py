@@ -208,6 +208,12 @@ def main():
         a, b = line.split("\t")
         if b.split()[0] != a and is_han(a):
             pairs[a] = b.split()[0]
+    # Simplified characters that stand for one traditional character only.
+    alone = {}
+    for line in p.zipped("opencc_python_reimplemented-*.whl", "STCharacters.txt").splitlines():
+        a, b = line.split("\t")
+        if len(b.split()) == 1:
+            alone[a] = b
     simple = lambda w: "".join(pairs.get(c, c) for c in w)
 
     # The first reading: what most words say that are in use.
@@ -227,9 +233,16 @@ def main():
                 if n >= 3 and n > 2 * full[rs[0]]:
                     first[c] = r
     first.update(first_by_hand)
-    # What holds by hand for a simplified character holds for its traditional one, where that has the reading at all.
+    # A traditional character that alone stands for its simplified one has that one's first reading; of several that
+    # share a simplified form each has its own.
     for t, s in pairs.items():
-        if s in first_by_hand and t not in first_by_hand and first[s] in chars.get(t, ()):
+        if t in first_by_hand or s not in first:
+            continue
+        if alone.get(s) == t:
+            first[t] = first[s]
+            chars.setdefault(t, [first[s]])
+            chars[t] += [r for r in chars.get(s, ()) if r not in chars[t]]
+        elif s in first_by_hand and first[s] in chars.get(t, ()):
             first[t] = first[s]
 
     # 地 after what is said of how something is done; any word that 地 begins is heavier.
@@ -270,6 +283,9 @@ def main():
     for (c, r) in by_line:
         if c in chars and r not in chars[c]:
             chars[c].append(r)
+    for t, s in pairs.items():
+        if alone.get(s) == t and t in chars:
+            chars[t] += [r for r in chars[s] if r not in chars[t]]
     firsts, others = collections.defaultdict(list), collections.defaultdict(list)
     for c, rs in chars.items():
         firsts[first[c]].append(c)
