@@ -213,7 +213,8 @@ impl Say<'_> {
             let part_end = rest
                 .char_indices()
                 .find(|(_, c)| {
-                    romanised::fold_width(*c).is_ascii_digit() != digit || matches!(c, '-' | '‐' | '‑' | '·' | ':')
+                    (romanised::fold_width(*c).is_ascii_digit() || *c == '.') != digit
+                        || matches!(c, '-' | '‐' | '‑' | '·' | ':')
                 })
                 .map_or(rest.len(), |(i, _)| i);
             let part = &rest[..part_end];

@@ -285,7 +285,7 @@ def main():
             chars[c].append(r)
     for t, s in pairs.items():
         if alone.get(s) == t and t in chars:
-            chars[t] += [r for r in chars[s] if r not in chars[t]]
+            chars[t] += [r for r in chars.get(s, ()) if r not in chars[t]]
     firsts, others = collections.defaultdict(list), collections.defaultdict(list)
     for c, rs in chars.items():
         firsts[first[c]].append(c)
