@@ -192,6 +192,12 @@ class Words:
         return reading
 
 
+def chance(word, frequency, total):
+    """How often the characters of a word stand side by side as two words, by chance: 面的 is far more often 面 and 的."""
+    halves = [(word[:i], word[i:]) for i in range(1, len(word))]
+    return max(frequency.get(a, 0) * frequency.get(b, 0) / total for a, b in halves)
+
+
 def main():
     folder, out = sys.argv[1], sys.argv[2]
     p = Packages(folder)
@@ -259,8 +265,12 @@ def main():
         for w in ws:
             assert c in w, (c, w)
             table.add(c, w, reading)
+    total, skipped = sum(frequency.values()), []
     order = sorted(words, key=lambda w: (len(w), -frequency.get(w, 0), w))
     for w in order:
+        if chance(w, frequency, total) > max(frequency.get(w, 0), 1):
+            skipped.append(w)
+            continue
         if len(w) > 4 and frequency.get(w, 0) == 0:
             continue
         for at, (c, r) in enumerate(zip(w, words[w])):
@@ -299,6 +309,8 @@ def main():
         for a, b in sorted(pairs.items()):
             if "\u3400" <= a <= "\u9fff" and "\u3400" <= b <= "\u9fff":
                 f.write(a + b + "\n")
+    if "-v" in sys.argv:
+        print(" ".join(skipped))
 
 
 main()
