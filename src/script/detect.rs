@@ -67,8 +67,11 @@ pub(super) fn find(text: &str, tokens: &[Token], system: System) -> Result<Found
         return fixed(System::English, romanisation);
     }
     let showing: Vec<&Both> = words.iter().filter(|w| w.is_pinyin() && !is_lookalike(w.text)).collect();
+    // One word by itself that is one syllable is what a learner of Mandarin asks for.
+    let lone =
+        matches!(words.as_slice(), [one] if one.hanyu.as_ref().or(one.tongyong.as_ref()).is_some_and(|w| w.len() == 1));
     let foreign = words.iter().filter(|w| !w.is_pinyin()).count();
-    if toned.is_empty() && (showing.len() <= foreign || showing.is_empty()) {
+    if toned.is_empty() && !lone && (showing.len() <= foreign || showing.is_empty()) {
         return Ok(Found { latin: System::English, romanisation: None, english_numbers: !words.is_empty() });
     }
     let pinyin: Vec<&Both> = words.iter().filter(|w| w.is_pinyin()).collect();
@@ -184,6 +187,8 @@ mod tests {
             ("jhe ci", System::Tongyong),
             ("他说 hao", System::English),
             ("women", System::English),
+            ("long", System::Hanyu),
+            ("he can ban me", System::English),
         ] {
             assert_eq!(latin(text).unwrap(), want, "{text}");
         }

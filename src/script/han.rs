@@ -91,6 +91,23 @@ pub(super) fn simplified(c: char) -> char {
     pairs.binary_search_by_key(&c, |(from, _)| *from).map_or(c, |at| pairs[at].1)
 }
 
+/// The simplified forms that differ from their traditional ones, sorted.
+static SIMPLER: LazyLock<Vec<char>> = LazyLock::new(|| {
+    let mut simpler: Vec<char> = TO_SIMPLIFIED.iter().map(|(_, to)| *to).collect();
+    simpler.sort_unstable();
+    simpler
+});
+
+/// Whether a character shows that a text is in traditional characters. 著 and 乾 do not: simplified text has them too.
+pub(super) fn is_traditional(c: char) -> bool {
+    !matches!(c, '著' | '乾') && simplified(c) != c
+}
+
+/// Whether a character shows that a text is in simplified characters.
+pub(super) fn is_simplified(c: char) -> bool {
+    simplified(c) == c && SIMPLER.binary_search(&c).is_ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

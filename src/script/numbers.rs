@@ -3,13 +3,16 @@
 //! What is a number and what stands around it comes from `tokens`; how the characters are read is for `words`.
 
 use super::romanised::fold_width;
-use super::tokens::is_money;
+use super::tokens::{is_minus, is_money};
 
 const DIGITS: [char; 10] = ['零', '一', '二', '三', '四', '五', '六', '七', '八', '九'];
 
 /// The characters of a number. `before` is the character before it, `after` the text that follows.
 pub(super) fn read(number: &str, before: Option<char>, after: &str) -> String {
     let number: String = number.chars().map(fold_width).collect();
+    if let Some(rest) = number.strip_prefix(is_minus) {
+        return format!("负{}", read(rest, None, after));
+    }
     let money = number.chars().next().filter(|c| is_money(*c));
     let body = number.trim_start_matches(is_money);
     let (body, sign) = match body.find(['%', '‰', '℃', '℉', '°']) {
@@ -263,6 +266,7 @@ mod tests {
             ("5-10", "", "五到十"),
             ("3:2", "", "三比二"),
             ("25°C", "", "二十五摄氏度"),
+            ("-5°C", "", "负五摄氏度"),
         ] {
             assert_eq!(read(text, None, after), want, "{text}{after}");
         }

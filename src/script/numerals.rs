@@ -1,6 +1,6 @@
 //! Numbers as they are read in English: a row of words for a row of digits.
 
-use super::tokens::is_money;
+use super::tokens::{is_minus, is_money};
 
 const ONES: [&str; 20] = [
     "zero",
@@ -43,6 +43,9 @@ const MONTHS: [&str; 12] = [
 /// The words of a number.
 pub(super) fn read(number: &str) -> Vec<&'static str> {
     let number: String = number.chars().map(super::romanised::fold_width).collect();
+    if let Some(rest) = number.strip_prefix(is_minus) {
+        return std::iter::once("minus").chain(read(rest)).collect();
+    }
     let money = number.chars().next().filter(|c| is_money(*c));
     let body = number.trim_start_matches(is_money);
     let (body, sign) = match body.find(['%', '‰', '℃', '℉', '°']) {

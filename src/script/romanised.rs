@@ -141,7 +141,9 @@ fn syllables(chunk: &Chunk, system: System) -> Option<Vec<Written>> {
         let last = out.len() - 1;
         out[last].span.end = end;
         let at = if erhua(split[last].0) { last - 1 } else { last };
-        out[at].reading = Reading::new(split[at].0, Some(tone));
+        if at == last || !marked {
+            out[at].reading = Reading::new(split[at].0, Some(tone));
+        }
         if at != last {
             out[last].reading = Reading::new(split[last].0, Some(5));
         }
@@ -204,9 +206,9 @@ impl Split<'_> {
 fn of_spelling(spelling: &str, system: System) -> Option<Sound> {
     if system == System::Tongyong {
         return Sound::from_tongyong(spelling).or_else(|| {
-            // The official table also writes nü and lü with the umlaut.
+            // Some write nü and lü for nyu and lyu.
             let yu = spelling.replace('ü', "yu");
-            (yu != spelling).then(|| Sound::from_tongyong(&yu)).flatten()
+            spelling.starts_with(['n', 'l']).then(|| Sound::from_tongyong(&yu)).flatten()
         });
     }
     Sound::from_hanyu(spelling).or_else(|| match spelling {
@@ -241,6 +243,7 @@ mod tests {
             ("Tiananmen", "tian an men"),
             ("dianr3", "dian3 r5"),
             ("nǎr", "na3 r5"),
+            ("wánr5", "wan2 r5"),
             ("nü'er", "nü er"),
             ("lüe4", "lüe4"),
             ("zhuāng", "zhuang1"),

@@ -26,10 +26,9 @@ use crate::disk::{Fault, Result};
 pub fn syllables(text: &str, system: System) -> Result<Vec<Syllable>> {
     let tokens = tokens::scan(text);
     let found = detect::find(text, &tokens, system)?;
-    let traditional = tokens.iter().any(|t| match t.kind {
-        Kind::Han(c) => !matches!(c, '著' | '乾') && han::simplified(c) != c,
-        _ => false,
-    });
+    let han = || tokens.iter().filter_map(|t| if let Kind::Han(c) = t.kind { Some(c) } else { None });
+    let traditional =
+        han().filter(|c| han::is_traditional(*c)).count() > han().filter(|c| han::is_simplified(*c)).count();
     let mut say = Say { text, system, found, traditional, out: Vec::new(), phrase: Vec::new() };
     for (i, token) in tokens.iter().enumerate() {
         say.token(token, i.checked_sub(1).and_then(|i| tokens.get(i)))?;
@@ -213,7 +212,8 @@ impl Say<'_> {
             let part_end = rest
                 .char_indices()
                 .find(|(_, c)| {
-                    romanised::fold_width(*c).is_ascii_digit() != digit || matches!(c, '-' | '‐' | '‑' | '·' | ':')
+                    (romanised::fold_width(*c).is_ascii_digit() || *c == '.') != digit
+                        || matches!(c, '-' | '‐' | '‑' | '·' | ':')
                 })
                 .map_or(rest.len(), |(i, _)| i);
             let part = &rest[..part_end];

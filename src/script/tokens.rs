@@ -95,6 +95,14 @@ impl Scan<'_> {
             let count = self.count(|_, c| zhuyin::is_zhuyin(c));
             return Some(self.take(Kind::Zhuyin, count));
         }
+        let before = self.at.checked_sub(1).and_then(|at| self.chars.get(at)).map(|(_, c)| *c);
+        let negative = is_minus(c) && before.is_none_or(|b| !b.is_ascii_alphanumeric() && !is_minus(b));
+        if negative && self.peek(1).is_some_and(|c| c.is_ascii_digit()) {
+            self.at += 1;
+            let count = self.number();
+            self.at -= 1;
+            return Some(self.take(Kind::Number, count + 1));
+        }
         if c.is_ascii_digit() || (is_money(c) && self.peek(1).is_some_and(|c| c.is_ascii_digit())) {
             let count = self.number();
             return Some(self.take(Kind::Number, count));
@@ -134,6 +142,9 @@ impl Scan<'_> {
             if is_joint(c) {
                 // `10-20` and `A - B` are no words; `fang'an` and `ni3-hao3` are.
                 before.is_some_and(|b| is_latin(b) || b.is_ascii_digit()) && after.is_some_and(is_latin)
+            } else if c == '.' {
+                // `v2.0`, but not the end of a sentence.
+                [before, after].iter().all(|c| c.is_some_and(|c| c.is_ascii_digit()))
             } else if c == ':' {
                 let l_or_n = n.checked_sub(2).and_then(|n| self.peek(n));
                 matches!(before, Some('u' | 'U'))
@@ -197,6 +208,11 @@ fn is_reading(label: &str) -> bool {
 /// A sign of money that stands before its number.
 pub(super) fn is_money(c: char) -> bool {
     matches!(c, '¥' | '￥' | '$' | '€' | '£')
+}
+
+/// A sign that makes the number after it negative.
+pub(super) fn is_minus(c: char) -> bool {
+    matches!(c, '-' | '−')
 }
 
 /// A letter of the Latin alphabet, with or without marks, or a mark on one.

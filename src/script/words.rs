@@ -74,6 +74,10 @@ impl Phrase {
         if c == '著' && self.traditional {
             return self.best('着', at).or_else(|| han::first_reading('着'));
         }
+        if c == '乾' && !self.traditional {
+            // Simplified writing keeps this character for the name of heaven alone.
+            return Reading::from_plain("qian2");
+        }
         let simple = *self.simplified.get(at)?;
         // 髮 is listed under 发, but only a reading that 髮 itself has can be meant.
         let listed = if c == simple { None } else { self.best(simple, at) };

@@ -192,6 +192,12 @@ class Words:
         return reading
 
 
+def chance(word, frequency, total):
+    """How often the characters of a word stand side by side as two words, by chance: 面的 is far more often 面 and 的."""
+    halves = [(word[:i], word[i:]) for i in range(1, len(word))]
+    return max(frequency.get(a, 0) * frequency.get(b, 0) / total for a, b in halves)
+
+
 def main():
     folder, out = sys.argv[1], sys.argv[2]
     p = Packages(folder)
@@ -208,6 +214,12 @@ def main():
         a, b = line.split("\t")
         if b.split()[0] != a and is_han(a):
             pairs[a] = b.split()[0]
+    # Simplified characters that stand for one traditional character only.
+    alone = {}
+    for line in p.zipped("opencc_python_reimplemented-*.whl", "STCharacters.txt").splitlines():
+        a, b = line.split("\t")
+        if len(b.split()) == 1:
+            alone[a] = b
     simple = lambda w: "".join(pairs.get(c, c) for c in w)
 
     # The first reading: what most words say that are in use.
@@ -227,9 +239,16 @@ def main():
                 if n >= 3 and n > 2 * full[rs[0]]:
                     first[c] = r
     first.update(first_by_hand)
-    # What holds by hand for a simplified character holds for its traditional one, where that has the reading at all.
+    # A traditional character that alone stands for its simplified one has that one's first reading; of several that
+    # share a simplified form each has its own.
     for t, s in pairs.items():
-        if s in first_by_hand and t not in first_by_hand and first[s] in chars.get(t, ()):
+        if t in first_by_hand or s not in first:
+            continue
+        if alone.get(s) == t:
+            first[t] = first[s]
+            chars.setdefault(t, [first[s]])
+            chars[t] += [r for r in chars.get(s, ()) if r not in chars[t]]
+        elif s in first_by_hand and first[s] in chars.get(t, ()):
             first[t] = first[s]
 
     # 地 after what is said of how something is done; any word that 地 begins is heavier.
@@ -246,8 +265,12 @@ def main():
         for w in ws:
             assert c in w, (c, w)
             table.add(c, w, reading)
+    total, skipped = sum(frequency.values()), []
     order = sorted(words, key=lambda w: (len(w), -frequency.get(w, 0), w))
     for w in order:
+        if chance(w, frequency, total) > max(frequency.get(w, 0), 1):
+            skipped.append(w)
+            continue
         if len(w) > 4 and frequency.get(w, 0) == 0:
             continue
         for at, (c, r) in enumerate(zip(w, words[w])):
@@ -270,6 +293,9 @@ def main():
     for (c, r) in by_line:
         if c in chars and r not in chars[c]:
             chars[c].append(r)
+    for t, s in pairs.items():
+        if alone.get(s) == t and t in chars:
+            chars[t] += [r for r in chars.get(s, ()) if r not in chars[t]]
     firsts, others = collections.defaultdict(list), collections.defaultdict(list)
     for c, rs in chars.items():
         firsts[first[c]].append(c)
@@ -283,6 +309,8 @@ def main():
         for a, b in sorted(pairs.items()):
             if "\u3400" <= a <= "\u9fff" and "\u3400" <= b <= "\u9fff":
                 f.write(a + b + "\n")
+    if "-v" in sys.argv:
+        print(" ".join(skipped))
 
 
 main()
