@@ -1,5 +1,7 @@
 //! The program as its users call it.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

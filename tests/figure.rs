@@ -1,5 +1,7 @@
 //! The line figures against the paper's tables, and the joints of their lines in pixels.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+
 use std::path::PathBuf;
 
 use lianpu::drawing::{Colour, Drawing, Item, Layer};

@@ -1,5 +1,7 @@
 //! A room uses only the rooms before it in `src/lib.rs`.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,8 @@
 //! Golden pictures. `LIANPU_GOLDEN=write cargo test --test pictures` makes them again; on failure the difference is
 //! written as three panels (expected, found, where) and its path is printed.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+
 use std::path::PathBuf;
 
 use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer};
@@ -118,8 +120,8 @@ fn our_pixels_are_those_that_resvg_makes_of_our_svg() {
             let drawing = figure.draw(&pose);
             let ours = Painter::new(640, 360).unwrap().paint(&drawing);
             let tree = resvg::usvg::Tree::from_str(&to_svg(&drawing, 640, 360), &resvg::usvg::Options::default());
-            let mut canvas = resvg::tiny_skia::Pixmap::new(640, 360).unwrap();
-            resvg::render(&tree.unwrap(), resvg::tiny_skia::Transform::identity(), &mut canvas.as_mut());
+            let mut canvas = tiny_skia::Pixmap::new(640, 360).unwrap();
+            resvg::render(&tree.unwrap(), tiny_skia::Transform::identity(), &mut canvas.as_mut());
             let theirs = Picture { width: 640, height: 360, rgba: canvas.data().to_vec() };
             // SVG carries hundredths of a unit and antialiases clips its own way: edges may differ, areas may not.
             let strong = ours.rgba.iter().zip(&theirs.rgba).filter(|(a, b)| a.abs_diff(**b) > 96).count();

@@ -1,5 +1,7 @@
 //! Lessons on disk: changes and their inverses, saving, the journal, the lock, and what a damaged file says.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+
 use std::path::{Path, PathBuf};
 
 use lianpu::pose::{Emotion, MouthShape, Ratios};

@@ -117,7 +117,7 @@ impl Clip {
     }
 
     /// Checks times against the script and takes them.
-    fn take_timing(&mut self, timing: Timing) -> Result<()> {
+    fn take_timing(&mut self, mut timing: Timing) -> Result<()> {
         let Some(tier) = timing.syllables() else {
             return Err(Fault::new("there is no tier `syllables`").help("name the tier with the syllables so"));
         };
@@ -130,10 +130,8 @@ impl Clip {
         timing::match_labels(&self.plain, tier, label_fits, |s| s.text.clone())?;
         let mut syllables = Tier::new("syllables");
         syllables.intervals = tier.spoken().cloned().collect();
-        let mut timing = timing.clone();
-        timing.tiers.retain(|t| t.name != syllables.name && !(t.name.is_empty()));
-        if timing.tiers.len() == 1 && timing.tier("words").is_none() && timing.tiers[0].intervals == syllables.intervals
-        {
+        // The only tier of a file may have any name; here it has its own.
+        if timing.tier("syllables").is_none() {
             timing.tiers.clear();
         }
         timing.set_tier(syllables);

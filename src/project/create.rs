@@ -81,7 +81,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
     write_whole(&draft.path().join(".gitignore"), b"/.lianpu/\n/export/\n")?;
     // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
     // files, not the draft's.
-    let lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(f, new))?;
+    let lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(&f, new))?;
     lesson.figure_of(&lesson.manifest.clips[0]).map_err(|f| Fault::new(f.what()).help(f.next_step()).of_the_call())?;
     drop(lesson);
     if root.exists() {
@@ -121,7 +121,7 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
 }
 
 /// The fault with the author's file in place of its copy in the draft.
-fn of_inputs(fault: Fault, new: &NewLesson) -> Fault {
+fn of_inputs(fault: &Fault, new: &NewLesson) -> Fault {
     let copied = fault.path().and_then(|p| p.file_stem()).and_then(|s| s.to_str()).unwrap_or_default().to_owned();
     let original = match copied.as_str() {
         "speech" => &new.speech,

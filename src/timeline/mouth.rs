@@ -102,7 +102,7 @@ impl MouthTrack {
                 keys.retain(|k| {
                     let near = k.time < key.time + AUTHOR_REACH && k.until > key.time - AUTHOR_REACH;
                     let replaced = key.replaces.is_some_and(|t| (k.time - t).abs() < REPLACES_REACH);
-                    !(near || replaced) || k.origin == Origin::Pause && !near
+                    !near && (!replaced || k.origin == Origin::Pause)
                 });
             }
         }

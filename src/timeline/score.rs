@@ -309,7 +309,7 @@ impl FileKey {
             }
             (Track::Mouth, Some(toml::Value::String(s))) if s == "rest" => KeyValue::Mouth(None),
             (Track::Mouth, Some(toml::Value::String(s))) => {
-                KeyValue::Mouth(Some(s.parse().map_err(|e| Fault::new(format!("{e}")).help("or write `rest`"))?))
+                KeyValue::Mouth(Some(s.parse().map_err(|e: String| Fault::new(e).help("or write `rest`"))?))
             }
             (Track::Blink, None) => KeyValue::Blink(BLINK_SECONDS),
             (Track::Blink, Some(v)) => match number(v) {

@@ -4,6 +4,8 @@
 //! cargo run --example seven-emotions > projects/seven-emotions/clips/walk/ratios.csv
 //! ```
 
+#![allow(clippy::print_stdout, reason = "printing is what it does")]
+
 use lianpu::emotion::{Record, Row};
 use lianpu::pose::{Emotion, Ratios};
 
