@@ -97,7 +97,7 @@ fn marked_polyphones_in_real_sentences_have_the_right_mouth() {
     }
     let share = |n: usize| 100.0 * n as f64 / all as f64;
     println!("{wrong}{all} sentences: mouth {:.2} %, mouth and tone {:.2} %", share(right), share(toned));
-    assert!(share(right) >= 98.4, "mouth shapes right in {:.2} %", share(right));
+    assert!(share(right) >= 98.8, "mouth shapes right in {:.2} %", share(right));
 }
 
 #[test]
