@@ -194,7 +194,9 @@ impl Mouth {
             list.iter().map(inner).sum::<f64>() / list.len().max(1) as f64
         };
         let (above, below) = (middle(&self.upper), middle(&self.lower));
-        let origin = Point::new(f64::midpoint(left.x, right.x), f64::midpoint(above, below));
+        // Lips that close under an open expression meet where neutral ones do, as far as that lies between them.
+        let meet = self.centre.y.clamp(above.min(below), below.max(above));
+        let origin = Point::new(f64::midpoint(left.x, right.x), meet);
         Frame {
             origin,
             half: 0.5 * (right.x - left.x).abs(),
