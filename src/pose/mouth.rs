@@ -156,7 +156,14 @@ impl MouthPose {
     /// How far the inner edges of the lips stand apart because of speech, in M; 0 when closed.
     #[must_use]
     pub fn opening(&self) -> f64 {
-        ((self.lower - self.upper) * (1.0 - self.closure)).max(0.0)
+        ((self.lower - self.upper) * self.parting()).max(0.0)
+    }
+
+    /// How much of the lips' own moves parts them: all of it, but for a bite, which lifts the upper lip over a lower
+    /// one that it touches.
+    #[must_use]
+    pub fn parting(&self) -> f64 {
+        1.0 - self.closure * self.bite
     }
 
     /// The way from `self` (t = 0) to `other` (t = 1).

@@ -110,10 +110,10 @@ impl Mouth {
     /// The model mouth of a pose in a frame, relative to the frame's origin. The curves are the recipe's: nearly
     /// straight where closed, rounder the further it opens and the narrower it gets.
     fn model(&self, mouth: &MouthPose, frame: &Frame) -> Model {
-        let open = 1.0 - mouth.closure;
-        let kept = 0.5 * EMOTION_WHILE_SPEAKING * frame.opening * open;
-        let upper = (mouth.upper * open - BITE * mouth.bite) * self.unit - kept;
-        let lower = mouth.lower * open * self.unit + kept;
+        let parting = mouth.parting();
+        let kept = 0.5 * EMOTION_WHILE_SPEAKING * frame.opening * (1.0 - mouth.closure);
+        let upper = (mouth.upper * parting - BITE * mouth.bite) * self.unit - kept;
+        let lower = mouth.lower * parting * self.unit + kept;
         // A mouth that the emotion has narrowed already gives way less to a rounded vowel.
         let narrowing = mouth.corner_in * self.width * (2.0 * frame.half / self.width).min(1.0);
         let half = (frame.half - narrowing).max(NARROWEST * self.width);
