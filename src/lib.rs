@@ -17,4 +17,5 @@ pub mod timeline;
 pub mod figure;
 pub mod render;
 pub mod project;
+pub mod studio;
 pub mod cli;

@@ -4,17 +4,21 @@
 mod convert;
 
 use std::io::Write;
+use std::path::Path;
 
 use clap::{Parser, Subcommand};
 
 use crate::disk::{Fault, Result};
+use crate::studio;
 
 /// A terminal studio that makes a face talk.
 #[derive(Debug, Parser)]
-#[command(name = "lianpu", version, about, arg_required_else_help = false)]
+#[command(name = "lianpu", version, about, arg_required_else_help = false, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    /// The folder that holds lessons, or is one [default: projects]
+    folder: Option<std::path::PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -27,8 +31,21 @@ enum Command {
 pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
     match &cli.command {
         Some(Command::Convert(args)) => convert::run(args, out),
-        None => Ok(()),
+        None => open_studio(cli.folder.as_deref(), out),
     }
+}
+
+/// The studio; without a terminal the help, so that a script that calls it by mistake does not wait for ever.
+fn open_studio(folder: Option<&Path>, out: &mut dyn Write) -> Result<()> {
+    use clap::CommandFactory;
+    use std::io::IsTerminal;
+    if !(std::io::stdin().is_terminal() && std::io::stdout().is_terminal()) {
+        return write!(out, "{}", Cli::command().render_long_help()).map_err(output_fault);
+    }
+    let not_yet = |_, _: &dyn Fn(studio::Progress), _: &std::sync::atomic::AtomicBool| {
+        Err(Fault::new("this version cannot export from the studio").help("use `lianpu export`"))
+    };
+    studio::run(folder.unwrap_or(Path::new("projects")), Box::new(not_yet))
 }
 
 /// What a failed write to standard output is called.
