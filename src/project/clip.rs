@@ -132,7 +132,8 @@ impl Clip {
         syllables.intervals = tier.spoken().cloned().collect();
         let mut timing = timing.clone();
         timing.tiers.retain(|t| t.name != syllables.name && !(t.name.is_empty()));
-        if timing.tiers.len() == 1 && timing.tier("words").is_none() && timing.tiers[0].intervals == syllables.intervals {
+        if timing.tiers.len() == 1 && timing.tier("words").is_none() && timing.tiers[0].intervals == syllables.intervals
+        {
             timing.tiers.clear();
         }
         timing.set_tier(syllables);
@@ -272,8 +273,7 @@ fn of_shapes(tier: &Tier) -> Vec<Spoken> {
         .filter_map(|run| {
             let (start, end) = (run.first()?.start, run.last()?.end);
             let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
-            let shapes =
-                run.iter().filter_map(|i| i.label.trim().parse().ok().map(|s| (share(i.start), s))).collect();
+            let shapes = run.iter().filter_map(|i| i.label.trim().parse().ok().map(|s| (share(i.start), s))).collect();
             Some(Spoken { start, end, shapes })
         })
         .collect()

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::Lesson;
+use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::Record;
 use crate::script::System;
@@ -49,7 +49,9 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
             .of_the_call());
     }
     if new.speech.is_some() && new.script.is_none() && new.timing.is_none() {
-        return Err(Fault::new("a recording needs its script").help("give --script FILE with what is said").of_the_call());
+        return Err(Fault::new("a recording needs its script")
+            .help("give --script FILE with what is said")
+            .of_the_call());
     }
     let parent = match root.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -149,4 +151,3 @@ fn open_to_others(root: &Path) {
     #[cfg(not(unix))]
     let _ = root;
 }
-

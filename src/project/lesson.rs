@@ -216,8 +216,7 @@ pub fn projects_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder).map_err(|e| {
         Fault::io("cannot list the folder", folder, e).help("give a folder that holds projects, or a project")
     })?;
-    let mut found: Vec<PathBuf> =
-        entries.flatten().map(|e| e.path()).filter(|p| p.join(MANIFEST).is_file()).collect();
+    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(|p| p.join(MANIFEST).is_file()).collect();
     found.sort();
     Ok(found)
 }

@@ -218,8 +218,11 @@ fn check_face_of(clip: &ClipEntry, faces: &[FaceEntry]) -> Result<()> {
 /// When fps or size are beyond their limits.
 pub(crate) fn check_output(output: &Output) -> Result<()> {
     if !FPS.contains(&output.fps) {
-        return Err(Fault::new(format!("`fps` is {}", output.fps))
-            .help(format!("give frames a second from {} to {}", FPS.start(), FPS.end())));
+        return Err(Fault::new(format!("`fps` is {}", output.fps)).help(format!(
+            "give frames a second from {} to {}",
+            FPS.start(),
+            FPS.end()
+        )));
     }
     let [width, height] = output.size;
     if [width, height].iter().any(|s| !(16..=MAX_SIDE).contains(s)) {

@@ -206,6 +206,10 @@ pub fn name_of(key: &KeyEvent) -> Option<String> {
         KeyCode::Delete => "Delete".to_owned(),
         _ => return None,
     };
+    // Enter that was typed before the terminal was ours arrives as a line feed, which is Ctrl-J.
+    if key.code == KeyCode::Char('j') && key.modifiers == KeyModifiers::CONTROL {
+        return Some("Enter".to_owned());
+    }
     let is_letter = matches!(key.code, KeyCode::Char(_));
     Some(match key.modifiers {
         m if m.contains(KeyModifiers::CONTROL) => format!("Ctrl-{}", bare.to_lowercase()),

@@ -40,6 +40,8 @@ impl Colours {
     pub fn colour(self, [r, g, b]: [u8; 3]) -> Color {
         match self {
             Self::None => Color::Reset,
+            // A grey of the 256 takes half the bytes, and 24 of them are enough for ink on paper.
+            Self::True if r.max(g).max(b) - r.min(g).min(b) < 10 => Color::Indexed(nearest_of_256([r, g, b])),
             Self::True => Color::Rgb(r, g, b),
             Self::Palette => Color::Indexed(nearest_of_256([r, g, b])),
         }

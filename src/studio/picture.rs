@@ -16,7 +16,7 @@ const FINER: u32 = 4;
 const LEVELS: u32 = 32;
 
 /// How dark a dot must be to be drawn where there are no colours.
-const DARK: u32 = 150;
+const DARK: u32 = 190;
 
 /// The picture of a face and what it shows.
 #[derive(Default)]

@@ -144,7 +144,15 @@ pub struct Score {
 
 impl Default for Score {
     fn default() -> Self {
-        Self { keys: Vec::new(), ranges: Vec::new(), markers: Vec::new(), pins: Vec::new(), guessed: false, seed: 1, auto_blink: true }
+        Self {
+            keys: Vec::new(),
+            ranges: Vec::new(),
+            markers: Vec::new(),
+            pins: Vec::new(),
+            guessed: false,
+            seed: 1,
+            auto_blink: true,
+        }
     }
 }
 

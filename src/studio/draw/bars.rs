@@ -73,7 +73,7 @@ fn bar(value: f64, widest: u16) -> String {
 fn lines(editor: &Editor, clip: &Clip, colours: Colours) -> Vec<(String, Style)> {
     let mut lines = vec![(
         format!(
-            "{:.3} of {:.2} s   frame {} (last {})   {:.2} s in sight",
+            "{:.3} of {:.2} s   frame {} (last {})   {:.2} s shown",
             editor.cursor,
             editor.timeline.duration(),
             editor.frame(),
