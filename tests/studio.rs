@@ -20,11 +20,18 @@ fn lesson(root: &Path, times: Option<[(f64, f64); 2]>, more: &[(&str, &str)]) {
     let manifest = "format = 1\ntitle = \"您好\"\n\n[[clip]]\nname = \"nihao\"\nscript_system = \"han\"\n";
     std::fs::write(root.join("lianpu.toml"), manifest).unwrap();
     std::fs::write(clip.join("script.txt"), "您好。\n").unwrap();
-    let spec = hound::WavSpec { channels: 1, sample_rate: 8000, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
+    let spec =
+        hound::WavSpec { channels: 1, sample_rate: 8000, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
     let mut wav = hound::WavWriter::create(clip.join("speech.wav"), spec).unwrap();
     for i in 0..12_800 {
         let t = f64::from(i) / 8000.0;
-        let loud = if (0.3..0.75).contains(&t) { 0.3 } else if (0.77..1.28).contains(&t) { 0.6 } else { 0.0 };
+        let loud = if (0.3..0.75).contains(&t) {
+            0.3
+        } else if (0.77..1.28).contains(&t) {
+            0.6
+        } else {
+            0.0
+        };
         wav.write_sample((loud * (t * 200.0 * std::f64::consts::TAU).sin() * 32_000.0) as i16).unwrap();
     }
     wav.finalize().unwrap();
@@ -250,9 +257,7 @@ fn a_key_of_speech_is_taken_over_by_moving_or_changing_it_and_deleting_gives_it_
 
 #[test]
 fn a_stretch_of_the_record_is_marked_and_changed() {
-    let rows: String = (0..40)
-        .map(|i| format!("{i},{:.2},0.5,0.5,0,0,0,0,0,1\n", f64::from(i) * 0.04))
-        .collect();
+    let rows: String = (0..40).map(|i| format!("{i},{:.2},0.5,0.5,0,0,0,0,0,1\n", f64::from(i) * 0.04)).collect();
     let record = format!("frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n{rows}");
     let mut bench = Bench::new(Some(TIMES), &[("ratios.csv", &record)]);
     bench.keys("Tab v Tab v 'happy *0.5' Enter");
@@ -392,7 +397,9 @@ fn a_terminal_that_is_too_small_is_told_so_and_none_is_too_small_to_draw_on() {
     assert!(bench.screen(40, 10).contains("too small"));
     for keys in ["", "?", "Esc", "r"] {
         bench.keys(keys);
-        for (width, height) in [(1, 1), (3, 2), (59, 19), (60, 20), (61, 28), (80, 21), (500, 20), (60, 120), (300, 100)] {
+        for (width, height) in
+            [(1, 1), (3, 2), (59, 19), (60, 20), (61, 28), (80, 21), (500, 20), (60, 120), (300, 100)]
+        {
             bench.screen(width, height);
         }
     }
@@ -429,4 +436,37 @@ fn the_player_plays_seeks_and_loops() {
     player.key("l");
     player.key("Space");
     assert!(player.advance(1.7) && player.frame() == 2, "{}", player.frame());
+}
+
+/// How long keys take in a lesson of an hour: `cargo test --release --test studio -- --ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn keys_are_quick_in_a_lesson_of_an_hour() {
+    let dir = tempfile::tempdir().unwrap();
+    let root = dir.path().join("hour");
+    lesson(&root, None, &[]);
+    let clip = root.join("clips/nihao");
+    std::fs::write(clip.join("script.txt"), "今天我們來上課。".repeat(1500)).unwrap();
+    let spec = hound::WavSpec {
+        channels: 1,
+        sample_rate: 16_000,
+        bits_per_sample: 16,
+        sample_format: hound::SampleFormat::Int,
+    };
+    let mut wav = hound::WavWriter::create(clip.join("speech.wav"), spec).unwrap();
+    for i in 0..57_600_000_u32 {
+        wav.write_sample((i.wrapping_mul(2_654_435_761) >> 17) as i16 / 4).unwrap();
+    }
+    wav.finalize().unwrap();
+    let mut studio = Studio::new(State::new(dir.path(), Colours::True).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let mut terminal = Terminal::new(TestBackend::new(200, 50)).unwrap();
+    for keys in ["Enter", "Enter", "l", "l", "Tab", "]", "u", "j", "n", "+", "-", "0", "l", "PageDown", "Space"] {
+        let start = std::time::Instant::now();
+        studio.key(keys);
+        let handled = start.elapsed();
+        studio.settle();
+        let settled = start.elapsed();
+        terminal.draw(|frame| studio.draw(frame)).unwrap();
+        println!("{keys:9} handled {handled:>9.1?}, settled {settled:>9.1?}, drawn {:>9.1?}", start.elapsed());
+    }
 }

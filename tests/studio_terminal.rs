@@ -21,7 +21,9 @@ struct Terminal {
 
 impl Terminal {
     fn start(folder: &Path, width: u16, height: u16, more: &[(&str, &str)]) -> Self {
-        let pair = native_pty_system().openpty(PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 }).unwrap();
+        let pair = native_pty_system()
+            .openpty(PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 })
+            .unwrap();
         let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_lianpu"));
         command.arg(folder);
         command.env("TERM", "xterm-256color");
@@ -126,7 +128,8 @@ fn lessons() -> tempfile::TempDir {
     std::fs::write(clip.join("script.txt"), "您好。\n").unwrap();
     let score = "[[key]]\ntrack = \"emotion\"\ntime = 0.0\nvalue = { neutral = 1.0 }\n\n[[key]]\ntrack = \"emotion\"\ntime = 1.1\nvalue = { surprised = 0.9 }\n";
     std::fs::write(clip.join("score.toml"), score).unwrap();
-    let spec = hound::WavSpec { channels: 1, sample_rate: 8000, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
+    let spec =
+        hound::WavSpec { channels: 1, sample_rate: 8000, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
     let mut wav = hound::WavWriter::create(clip.join("speech.wav"), spec).unwrap();
     for i in 0..12_800 {
         let t = f64::from(i) / 8000.0;
@@ -211,7 +214,8 @@ fn with_no_color_there_is_no_colour_code_at_all() {
     for sequence in text.split("\x1b[").skip(1) {
         let Some(end) = sequence.find(|c: char| c.is_ascii_alphabetic()) else { continue };
         if sequence[end..].starts_with('m') {
-            let of_colour = |p: &str| p.parse::<u32>().is_ok_and(|n| (30..=38).contains(&n) || (40..=48).contains(&n) || n >= 90);
+            let of_colour =
+                |p: &str| p.parse::<u32>().is_ok_and(|n| (30..=38).contains(&n) || (40..=48).contains(&n) || n >= 90);
             assert!(!sequence[..end].split([';', ':']).any(of_colour), "{:?}", &sequence[..end]);
         }
     }
@@ -241,7 +245,8 @@ fn a_signal_gives_the_terminal_back_and_the_changes_wait_in_the_journal() {
 
 #[test]
 fn without_a_terminal_the_program_prints_its_help() {
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_lianpu")).stdin(std::process::Stdio::null()).output().unwrap();
+    let output =
+        std::process::Command::new(env!("CARGO_BIN_EXE_lianpu")).stdin(std::process::Stdio::null()).output().unwrap();
     assert!(output.status.success());
     assert!(String::from_utf8_lossy(&output.stdout).contains("Usage"));
 }

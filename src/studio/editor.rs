@@ -7,6 +7,9 @@ use crate::pose::Pose;
 use crate::project::{Clip, Lesson};
 use crate::timeline::{Key, KeyValue, MouthKey, Origin, Timeline, Track};
 
+/// What is shown of a longer clip at first, in seconds: as much as 80 columns can show syllable by syllable.
+const FIRST_SIGHT: f64 = 6.0;
+
 /// A clip being looked at and edited. It holds nothing that is saved; that is the lesson's.
 #[derive(Debug)]
 pub struct Editor {
@@ -61,7 +64,7 @@ impl Editor {
         let timeline = lesson.timeline(clip, None);
         let mut editor = Self {
             clip,
-            window: Window::whole(timeline.duration()),
+            window: Window { from: 0.0, span: timeline.duration().min(FIRST_SIGHT) },
             timeline,
             figure,
             cursor: 0.0,
@@ -156,11 +159,12 @@ impl Editor {
         let Lane::Keys(track) = self.lane else { return None };
         let reach = 0.5 / self.timeline.fps() + 1e-6;
         let away = |k: &LaneKey| (k.time() - self.cursor).abs();
-        self.keys_on(clip, track).into_iter().filter(|k| away(k) <= reach).min_by(|a, b| {
-            // Of two at one place the author's.
-            let own = |k: &LaneKey| usize::from(matches!(k, LaneKey::Spoken(_)));
-            away(a).total_cmp(&away(b)).then(own(a).cmp(&own(b)))
-        })
+        let own = clip.score.keys.iter().filter(|k| k.value.track() == track).map(|k| LaneKey::Own(*k));
+        let spoken = self.timeline.mouth_keys().iter();
+        let spoken =
+            spoken.filter(|k| track == Track::Mouth && k.origin != Origin::Author).map(|k| LaneKey::Spoken(*k));
+        // Of two at one place the first is taken, which is the author's.
+        own.chain(spoken).filter(|k| away(k) <= reach).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// Whether a syllable's times are a guess that nobody has looked at.

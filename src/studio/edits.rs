@@ -2,7 +2,7 @@
 //! its list for undo and in its journal.
 
 use super::action::{Action, Nudge};
-use super::editor::{Editor, LaneKey};
+use super::editor::{Editor, LaneKey, value_text};
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
@@ -137,8 +137,8 @@ fn ask_key(state: &mut State, old: Option<LaneKey>) {
         Some(LaneKey::Spoken(key)) => {
             (key.time, None, Some(key.time), key.shape.map_or("rest".into(), |s| s.to_string()))
         }
-        None if track == Track::Blink => (editor.cursor, None, None, "0.24".into()),
-        None => (editor.cursor, None, None, String::new()),
+        // What is there already: a key that changes nothing yet is the start of one that does.
+        None => (editor.cursor, None, None, value_text(&value_here(editor, track)).trim_end_matches(" s").to_owned()),
     };
     let title = match old {
         Some(LaneKey::Own(_)) => format!("The {} key at {time:.3} s", editor.lane.name()),
@@ -146,6 +146,18 @@ fn ask_key(state: &mut State, old: Option<LaneKey>) {
         None => format!("A new {} key at {time:.3} s", editor.lane.name()),
     };
     prompt(state, Purpose::Key { track, time, old: own, replaces }, title, typed::key_help(track), text);
+}
+
+/// What a track has at the cursor.
+fn value_here(editor: &Editor, track: Track) -> KeyValue {
+    let pose = editor.pose();
+    match track {
+        Track::Emotion => KeyValue::Emotion(pose.ratios),
+        Track::Mouth => KeyValue::Mouth(pose.shape),
+        Track::Blink => KeyValue::Blink(0.24),
+        Track::Gaze => KeyValue::Gaze(pose.gaze),
+        Track::Head => KeyValue::Head(pose.head),
+    }
 }
 
 /// Does what a typed line asks for.
@@ -260,7 +272,7 @@ fn mark(state: &mut State) {
     let has_record = clip.lesson.as_ref().is_ok_and(|l| l.clips[editor.clip].record.is_some());
     match editor.mark {
         _ if !has_record => {
-            state.refuse("a stretch is an edit of a ratio record, and this clip has none: use emotion keys")
+            state.refuse("a stretch is an edit of a ratio record, and this clip has none: use emotion keys");
         }
         None => {
             editor.mark = Some(editor.cursor);

@@ -20,6 +20,8 @@ pub enum Job {
     Open(PathBuf),
     /// Make the outline of a clip's sound; the sound comes back with it.
     Outline {
+        /// The lesson's folder.
+        root: PathBuf,
         /// Number of the clip.
         clip: usize,
         /// Its sound.
@@ -105,7 +107,8 @@ fn open_clip(state: &mut State) -> Option<Job> {
     if let Some(why) = why {
         state.say(format!("you can look but not change: {why}"));
     }
-    sound.map(|sound| Job::Outline { clip: chosen, sound })
+    let root = state.lesson()?.root.clone();
+    sound.map(|sound| Job::Outline { root, clip: chosen, sound })
 }
 
 fn back(state: &mut State) {

@@ -153,12 +153,8 @@ pub const TABLE: &[Row] = &[
     row(&[Helping], &[("q", Close), ("Esc", Close), ("?", Close), ("Enter", Close)], "close", "close the help"),
     row(&[Prompt], &[("Enter", Accept)], "done", "take what was typed"),
     row(&[Prompt], &[("Esc", Close)], "leave it", "leave everything as it is"),
-    row(
-        &[Prompt],
-        &[("Backspace", Rub), ("Delete", RubAhead), ("Ctrl-u", RubLine)],
-        "",
-        "take away the letter before, after, all before",
-    ),
+    row(&[Prompt], &[("Backspace", Rub), ("Delete", RubAhead)], "", "take away the letter before, after"),
+    row(&[Prompt], &[("Ctrl-u", RubLine)], "clear", "take away everything before"),
     row(
         &[Prompt],
         &[("Left", Caret(-1)), ("Right", Caret(1)), ("Home", Caret(i32::MIN)), ("End", Caret(i32::MAX))],

@@ -11,14 +11,22 @@ pub struct Line {
     text: String,
     /// Before which letter the caret stands, counted in letters.
     caret: usize,
+    /// Whether all of it was proposed and not touched yet: the first letter typed takes its place.
+    proposed: bool,
 }
 
 impl Line {
-    /// A line that has text already, the caret behind it.
+    /// A line that proposes a text, the caret behind it. Typing replaces it; moving the caret first keeps it.
     #[must_use]
     pub fn new(text: impl Into<String>) -> Self {
         let text = text.into();
-        Self { caret: text.chars().count(), text }
+        Self { caret: text.chars().count(), proposed: !text.is_empty(), text }
+    }
+
+    /// Whether the text is a proposal that the next letter replaces.
+    #[must_use]
+    pub fn is_proposed(&self) -> bool {
+        self.proposed
     }
 
     /// What was typed.
@@ -35,6 +43,7 @@ impl Line {
 
     /// Puts text in; what could act on a terminal is left out.
     pub fn put(&mut self, text: &str) {
+        self.drop_proposal();
         let clean: String = if text == " " { " ".into() } else { clean_line(text, LIMIT) };
         let room = LIMIT.saturating_sub(self.text.chars().count());
         let clean: String = clean.chars().take(room).collect();
@@ -44,6 +53,7 @@ impl Line {
 
     /// Takes the letter before the caret away.
     pub fn rub(&mut self) {
+        self.drop_proposal();
         if self.caret > 0 {
             self.caret -= 1;
             self.text.remove(self.byte(self.caret));
@@ -52,6 +62,7 @@ impl Line {
 
     /// Takes the letter after the caret away.
     pub fn rub_ahead(&mut self) {
+        self.drop_proposal();
         let at = self.byte(self.caret);
         if at < self.text.len() {
             self.text.remove(at);
@@ -60,18 +71,27 @@ impl Line {
 
     /// Takes everything before the caret away.
     pub fn rub_line(&mut self) {
+        self.proposed = false;
         self.text.replace_range(..self.byte(self.caret), "");
         self.caret = 0;
     }
 
     /// Moves the caret by so many letters, as far as there are any.
     pub fn move_caret(&mut self, by: i32) {
+        self.proposed = false;
         let moved = if by < 0 {
             self.caret.saturating_sub(by.unsigned_abs() as usize)
         } else {
             self.caret.saturating_add(by.unsigned_abs() as usize)
         };
         self.caret = moved.min(self.text.chars().count());
+    }
+
+    fn drop_proposal(&mut self) {
+        if std::mem::take(&mut self.proposed) {
+            self.text.clear();
+            self.caret = 0;
+        }
     }
 
     fn byte(&self, letter: usize) -> usize {
@@ -97,6 +117,21 @@ mod tests {
         line.move_caret(1);
         line.rub_line();
         assert_eq!((line.text(), line.before_caret()), ("han", ""));
+    }
+
+    #[test]
+    fn a_proposal_is_replaced_by_the_first_letter_and_kept_when_the_caret_moves_first() {
+        let mut line = Line::new("nin2");
+        line.put("h");
+        assert_eq!((line.text(), line.before_caret()), ("h", "h"));
+        let mut line = Line::new("nin2");
+        line.move_caret(0);
+        line.rub();
+        line.put("3");
+        assert_eq!(line.text(), "nin3");
+        let mut line = Line::new("nin2");
+        line.rub();
+        assert_eq!(line.text(), "");
     }
 
     #[test]

@@ -72,12 +72,12 @@ impl Colours {
         }
     }
 
-    /// The style of what belongs to the author.
+    /// The style of what belongs to the author: magenta and red can be read on black and on white.
     #[must_use]
     pub fn accent(self) -> Style {
         match self {
             Self::None => Style::new(),
-            _ => Style::new().fg(Color::Cyan),
+            _ => Style::new().fg(Color::Magenta),
         }
     }
 
@@ -86,7 +86,7 @@ impl Colours {
     pub fn warning(self) -> Style {
         match self {
             Self::None => Style::new(),
-            _ => Style::new().fg(Color::Yellow),
+            _ => Style::new().fg(Color::Red),
         }
     }
 }

@@ -192,7 +192,7 @@ fn watch_signals(sender: Sender<Event>) -> Result<()> {
     let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])
         .map_err(|e| Fault::io("cannot watch for signals", "the terminal", e))?;
     thread::spawn(move || {
-        for signal in signals.forever() {
+        if let Some(signal) = signals.forever().next() {
             let _ = sender.send(Event::End);
             thread::sleep(Duration::from_millis(700));
             terminal::give_back();

@@ -1,5 +1,6 @@
 //! The studio without a terminal: keys and reports go in, a frame comes out.
 
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
@@ -30,6 +31,8 @@ pub enum Report {
     },
     /// The outline of a sound is ready.
     Outlined {
+        /// The lesson's folder.
+        root: PathBuf,
         /// Number of the clip.
         clip: usize,
         /// The sound, with its outline.
@@ -136,8 +139,12 @@ impl Studio {
                 }
                 self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0 });
             }
-            Report::Outlined { clip, sound, loudest } => {
+            Report::Outlined { root, clip, sound, loudest } => {
                 self.under_way -= 1;
+                // The author may have gone to another lesson in the meantime.
+                if self.state.lesson().is_none_or(|l| l.root != root) {
+                    return;
+                }
                 if let Some(clip) = self.state.lesson_mut().and_then(|l| l.clips.get_mut(clip)) {
                     clip.sound = Some(*sound);
                 }

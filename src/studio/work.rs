@@ -28,10 +28,10 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                 });
                 reports.send(Report::Opened { name, lesson: Box::new(lesson), findings })
             }
-            Job::Outline { clip, sound } => {
+            Job::Outline { root, clip, sound } => {
                 // One column over everything builds the whole outline.
                 let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();
-                reports.send(Report::Outlined { clip, sound: Box::new(sound), loudest: high.max(-low) })
+                reports.send(Report::Outlined { root, clip, sound: Box::new(sound), loudest: high.max(-low) })
             }
             Job::Export { request, cancel } => {
                 let exporter = exporter.lock().unwrap_or_else(PoisonError::into_inner);

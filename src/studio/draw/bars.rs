@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 
-use super::{BOLD, DIM, put, put_short};
+use super::{BOLD, DIM, cells, put, put_short};
 use crate::pose::Emotion;
 use crate::project::Clip;
 use crate::studio::editor::Editor;
@@ -22,7 +22,7 @@ pub(super) fn panel(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Cli
     let left = Rect { width: area.width.min(78), ..area };
     ratios(buffer, left, editor, colours);
     let mut y = area.y + 8.min(area.height);
-    for (text, style) in lines(editor, clip, colours) {
+    for (text, style) in lines(editor, clip, left.width, colours) {
         if y < area.bottom() {
             put_short(buffer, left.x, y, left.width, &text, style);
             y += 1;
@@ -59,7 +59,7 @@ fn bar(value: f64, widest: u16) -> String {
     }
     let eighths = (value.min(1.0) * f64::from(widest) * 8.0).round().max(0.0) as usize;
     let mut text = "█".repeat(eighths / 8);
-    if eighths % 8 > 0 {
+    if !eighths.is_multiple_of(8) {
         text.extend(char::from_u32(0x2590 - (eighths % 8) as u32));
     }
     if value > 1.005 {
@@ -70,18 +70,15 @@ fn bar(value: f64, widest: u16) -> String {
 }
 
 /// What is at the cursor, line by line, the most telling first.
-fn lines(editor: &Editor, clip: &Clip, colours: Colours) -> Vec<(String, Style)> {
-    let mut lines = vec![(
-        format!(
-            "{:.3} of {:.2} s   frame {} (last {})   {:.2} s shown",
-            editor.cursor,
-            editor.timeline.duration(),
-            editor.frame(),
-            editor.timeline.frames().saturating_sub(1),
-            editor.window.span.min(editor.timeline.duration())
-        ),
-        Style::new(),
-    )];
+fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(String, Style)> {
+    let duration = editor.timeline.duration();
+    let last = editor.timeline.frames().saturating_sub(1);
+    let mut now = format!("{:.3} of {duration:.2} s   frame {} (last {last})", editor.cursor, editor.frame());
+    let shown = format!("   {:.2} s shown", editor.window.span.min(duration));
+    if cells(&now) + cells(&shown) <= width {
+        now.push_str(&shown);
+    }
+    let mut lines = vec![(now, Style::new())];
     if let Some((index, syllable, interval)) =
         editor.syllable.and_then(|i| Some((i, clip.syllables.get(i)?, clip.intervals().get(i)?)))
     {

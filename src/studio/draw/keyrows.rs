@@ -10,7 +10,7 @@ use crate::project::Clip;
 use crate::studio::Lane;
 use crate::studio::editor::{Editor, value_text};
 use crate::studio::look::Colours;
-use crate::timeline::{Origin, Track};
+use crate::timeline::{MouthKey, Origin, Track};
 
 fn own_style(colours: Colours) -> Style {
     colours.accent().add_modifier(Modifier::UNDERLINED | Modifier::BOLD)
@@ -20,17 +20,23 @@ fn own_style(colours: Colours) -> Style {
 pub(super) fn mouth(buffer: &mut Buffer, row: Rect, editor: &Editor, colours: Colours) {
     let (window, columns) = (editor.window, row.width);
     let keys = editor.timeline.mouth_keys();
-    for key in keys.iter().filter(|k| k.shape.is_some()) {
+    let held = |k: &&MouthKey| k.shape.is_some() && k.until >= window.from && k.time <= window.to();
+    for key in keys.iter().filter(held) {
         for column in
             window.column(key.time, columns).max(0)..=window.column(key.until, columns).min(i32::from(columns) - 1)
         {
             put(buffer, row.x + column as u16, row.y, 1, "─", DIM);
         }
     }
+    // Letters upon letters say nothing: of too many only the author's are shown.
+    let in_sight = keys.iter().filter(|k| window.shown_column(k.time, columns).is_some()).count();
+    let crowded = in_sight > 2 * usize::from(columns);
     // The author's keys are put last, so that none is hidden where many share a column.
     for authors in [false, true] {
         for key in keys.iter().filter(|k| (k.origin == Origin::Author) == authors) {
-            let Some(column) = window.shown_column(key.time, columns) else { continue };
+            let Some(column) = window.shown_column(key.time, columns).filter(|_| authors || !crowded) else {
+                continue;
+            };
             let letter = key.shape.map_or('·', |s| s.letter()).to_string();
             let x = row.x + column;
             match authors {

@@ -50,7 +50,11 @@ pub(super) fn lesson(buffer: &mut Buffer, area: Rect, state: &State) {
             y = list.bottom() + 1;
         }
         Err(fault) => {
-            for line in fault.to_string().lines() {
+            put(buffer, inner.x, y, inner.width, "This lesson does not open.", BOLD);
+            y += 1;
+            // A check finds the same and more, as a rule.
+            let told = open.findings.iter().any(|f| matches!(f, Finding::Wrong(_)));
+            for line in fault.to_string().lines().filter(|_| !told) {
                 put_short(buffer, inner.x, y, inner.width, line, state.colours.warning());
                 y += 1;
             }

@@ -6,7 +6,7 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::lists::folded;
-use super::{BOLD, DIM, cells, put, put_short};
+use super::{BOLD, CHOSEN, DIM, cells, put, put_short};
 use crate::studio::export::Progress;
 use crate::studio::keys::{Place, help_of};
 use crate::studio::overlay::{Overlay, Prompt};
@@ -85,8 +85,9 @@ fn prompt(buffer: &mut Buffer, area: Rect, prompt: &Prompt, state: &State) -> Po
     while cells(&before[start..]) > room {
         start += before[start..].chars().next().map_or(1, char::len_utf8);
     }
+    let typed = if prompt.line.is_proposed() { CHOSEN } else { BOLD };
     put(buffer, inside.x, inside.y, 2, "> ", DIM);
-    put(buffer, inside.x + 2, inside.y, inside.width - 2, &prompt.line.text()[start..], BOLD);
+    put(buffer, inside.x + 2, inside.y, inside.width - 2, &prompt.line.text()[start..], typed);
     let style = if prompt.fault.is_some() { state.colours.warning() } else { DIM };
     for (line, y) in lines.iter().zip(inside.y + 2..inside.bottom()) {
         put(buffer, inside.x, y, inside.width, line, style);

@@ -14,7 +14,15 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         put(buffer, layout.said.x, layout.said.y, columns, "no script: write a script.txt", DIM);
         return;
     }
+    let inside = |i: &&crate::timing::Interval| i.end > window.from && i.start < window.to();
+    let many = clip.intervals().iter().filter(inside).count();
+    if many > usize::from(columns) {
+        let text = format!("{many} syllables: + shows fewer, closer");
+        put(buffer, layout.said.x + 1, layout.said.y, columns - 1, &text, DIM);
+        return;
+    }
     let mut last_end = -1;
+    let mut any_guessed = false;
     for (index, (syllable, interval)) in clip.syllables.iter().zip(clip.intervals()).enumerate() {
         let (start, end) = (window.column(interval.start, columns), window.column(interval.end, columns));
         if end < 0 || start >= i32::from(columns) {
@@ -30,19 +38,22 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
                 put(buffer, x, row.y, 1, " ", style);
             }
         }
-        // The boundary, then the text, as far as there is room before the end.
-        if start >= 0 {
+        // The boundary, then the text; where there is room for one of them, the text.
+        let room = at(end).saturating_sub(at(start));
+        let bounded = start >= 0 && room != cells(&syllable.text);
+        if bounded {
             put(buffer, at(start), row.y, 1, "│", style);
         }
-        let inside = at(start + i32::from(start >= 0));
+        let inside = at(start + i32::from(bounded));
         let room = at(end).saturating_sub(inside);
         let mut used = put(buffer, inside, row.y, room, &syllable.text, style.patch(BOLD));
-        if guessed {
+        if used == 0 && room > 0 {
+            used = put(buffer, inside, row.y, 1, "·", style);
+        } else if guessed {
             used += put(buffer, inside + used, row.y, room - used, "?", style.patch(colours.warning()));
         }
-        if used == 0 && room > 0 {
-            put(buffer, inside, row.y, 1, "·", style);
-        }
+        any_guessed |= guessed;
+        debug_assert!(used <= room.max(1), "a syllable stays inside its time");
         // Where nothing follows at once, the end is drawn too.
         let follows = clip.intervals().get(index + 1).is_some_and(|next| window.column(next.start, columns) <= end);
         if !follows && (0..i32::from(columns)).contains(&end) {
@@ -55,5 +66,9 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
             let used = put(buffer, inside.max(at(last_end)), below.y, free, &syllable.pinyin, style);
             last_end = i32::from(inside.max(at(last_end)) + used + 1) - i32::from(row.x);
         }
+    }
+    // Where there is no room for the marks, the margin has one.
+    if any_guessed {
+        put(buffer, layout.area.x + 1, layout.pinyin.y, layout.pinyin.x - 1, "guessed?", colours.warning());
     }
 }

@@ -64,7 +64,11 @@ impl Dots {
             if *bits != 0
                 && let Some(cell) = buffer.cell_mut(place)
             {
-                cell.set_char(char::from_u32(0x2800 + u32::from(*bits)).unwrap_or(' ')).set_style(style);
+                // Where two lines meet in a cell both keep their dots; the colour is the later one's.
+                let there = cell.symbol().chars().next().map_or(0, u32::from);
+                let there = if (0x2800..0x2900).contains(&there) { there - 0x2800 } else { 0 };
+                let dots = 0x2800 + (there | u32::from(*bits));
+                cell.set_char(char::from_u32(dots).unwrap_or(' ')).set_style(style);
             }
         }
     }
