@@ -18,7 +18,7 @@ pub(super) fn execute(state: &mut State, action: Action) -> bool {
         Action::End(by) => nudge(state, by, boundary::Side::End),
         Action::Reading => ask_reading(state),
         Action::Edit => edit(state),
-        Action::Add => ask_key(state, None),
+        Action::Add => add(state),
         Action::MoveKey(by) => move_key(state, by),
         Action::Delete => delete_key(state),
         Action::Mark => mark(state),
@@ -124,14 +124,19 @@ fn edit(state: &mut State) {
     }
 }
 
-fn ask_key(state: &mut State, old: Option<LaneKey>) {
+/// A new key at the cursor. Where the author has one at that very time it is changed instead.
+fn add(state: &mut State) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
+    let there = editor.key_here(clip).filter(|k| (k.time() - editor.cursor).abs() < 1e-3);
+    ask_key(state, there);
+}
+
+fn ask_key(state: &mut State, old: Option<LaneKey>) {
+    let Some(editor) = &state.editor else { return };
     let Lane::Keys(track) = editor.lane else {
         state.say("choose a lane for the key first: ↓");
         return;
     };
-    // A new key where one is: the same one, changed.
-    let old = old.or_else(|| editor.key_here(clip));
     let (time, own, replaces, text) = match old {
         Some(LaneKey::Own(key)) => (key.time, Some(key), key.replaces, typed::key_text(&key)),
         Some(LaneKey::Spoken(key)) => {

@@ -232,3 +232,57 @@ impl Desk for Player {
         Player::draw(self, frame);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::timeline::{Score, Sources};
+
+    fn player() -> Player {
+        let score = Score::default();
+        let sources = Sources {
+            duration: 2.0,
+            fps: 10.0,
+            spoken: &[],
+            record: None,
+            tracks: None,
+            score: &score,
+            mouths: crate::pose::MouthPreset::default(),
+        };
+        let show = Show {
+            title: "a record".into(),
+            timeline: Timeline::build(&sources),
+            figure: LineFigure::built_in("cat").unwrap(),
+            captions: Vec::new(),
+        };
+        Player::new(show, Colours::None)
+    }
+
+    #[test]
+    fn a_bare_timeline_plays_to_its_end_and_stays_there() {
+        let mut player = player();
+        assert!(!player.advance(0.05), "no new frame, no drawing");
+        assert!(player.advance(0.06) && player.frame() == 1);
+        assert!(player.advance(60.0) && player.frame() == 19);
+        assert!(player.beat().is_none() && !player.advance(1.0));
+    }
+
+    #[test]
+    fn seeking_stops_playing_and_stays_inside() {
+        let mut player = player();
+        player.key("Left");
+        assert_eq!((player.frame(), player.beat().is_none()), (0, true));
+        player.key("Up");
+        assert_eq!(player.frame(), 19);
+        player.key("Home");
+        player.key("Right");
+        assert_eq!(player.frame(), 1);
+    }
+
+    #[test]
+    fn the_beat_falls_on_frames_however_late_one_was() {
+        let mut player = player();
+        player.advance(0.13);
+        assert!(player.beat().is_some_and(|s| (s - 0.07).abs() < 1e-9));
+    }
+}

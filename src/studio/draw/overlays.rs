@@ -35,10 +35,10 @@ pub(super) fn overlays(buffer: &mut Buffer, area: Rect, state: &State) -> Option
     caret
 }
 
-/// A box in the middle, empty; its inside.
+/// A box in the middle, empty; its inside. It stands in the upper half, where it does not cover the lanes.
 fn boxed(buffer: &mut Buffer, area: Rect, width: u16, height: u16, title: &str) -> Rect {
     let (width, height) = ((width + 4).min(area.width), (height + 2).min(area.height));
-    let place = Rect::new(area.x + (area.width - width) / 2, area.y + (area.height - height) / 2, width, height);
+    let place = Rect::new(area.x + (area.width - width) / 2, area.y + (area.height - height) / 3, width, height);
     // A wide letter whose half lies under the edge would leave the edge one cell off.
     if place.x > area.x {
         for y in place.y..place.bottom() {
