@@ -31,7 +31,7 @@ pub struct Editor {
     pub mark: Option<f64>,
     /// While it plays: the exact time, of which the cursor shows the frame.
     pub playing: Option<f64>,
-    /// The lowest and highest ratio of the clip, at least 0 to 1: what the curves' height stands for.
+    /// The lowest and highest ratio of the clip in whole tenths, at least 0 to 0.3: what the curves' height stands for.
     pub extent: (f64, f64),
     /// The loudest sample, once the outline of the sound is ready.
     pub loudest: Option<f32>,
@@ -82,10 +82,12 @@ impl Editor {
     /// Builds the timeline anew, after the lesson has changed.
     pub fn rebuild(&mut self, lesson: &Lesson) {
         self.timeline = lesson.timeline(self.clip, None);
-        self.extent = (0..=self.timeline.frames()).fold((0.0, 1.0), |(low, high), frame| {
+        let (low, high) = (0..=self.timeline.frames()).fold((0.0_f64, 0.3_f64), |(low, high), frame| {
             let ratios = self.timeline.ratios(self.timeline.time_of(frame));
             ratios.0.iter().fold((low, high), |(low, high), r| (low.min(*r), high.max(*r)))
         });
+        // Whole tenths, so that small edits do not move every curve on the screen.
+        self.extent = ((low * 10.0 + 1e-6).floor() / 10.0, (high * 10.0 - 1e-6).ceil() / 10.0);
         self.select(&lesson.clips[self.clip]);
         if let Some(clip) = lesson.clips.get(self.clip)
             && self.syllable.is_some_and(|s| s >= clip.syllables.len())

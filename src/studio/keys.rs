@@ -296,6 +296,13 @@ mod tests {
     }
 
     #[test]
+    fn the_table_for_the_readme_has_every_place_and_every_key() {
+        let text = key_table_markdown();
+        assert!(text.contains("| `u` `C-r` | undo, redo |") && text.contains("**A running export**"), "{text}");
+        println!("{text}");
+    }
+
+    #[test]
     fn keys_are_called_as_the_table_calls_them() {
         let name = |code, modifiers| name_of(&KeyEvent::new(code, modifiers)).unwrap();
         assert_eq!(name(KeyCode::Char('R'), KeyModifiers::CONTROL), "Ctrl-r");

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 use super::sound::Dots;
-use super::{DIM, put};
+use super::{DIM, cells, put};
 use crate::pose::Emotion;
 use crate::studio::editor::Editor;
 use crate::studio::look::Colours;
@@ -23,13 +23,12 @@ pub(super) fn curves(buffer: &mut Buffer, area: Rect, editor: &Editor, colours: 
     let end = editor.timeline.duration();
     let samples: Vec<_> =
         (0..columns).take_while(|c| time(*c) < end).map(|c| editor.timeline.ratios(time(c))).collect();
-    let scale = |y: u16, value: f64, buffer: &mut Buffer| {
-        let text = format!("{value:.0}");
-        put(buffer, area.x.saturating_sub(1), y, 1, &text, DIM);
-    };
-    if high - low < 1.5 {
-        scale(area.y + (row(1.0) / 4) as u16, 1.0, buffer);
-        scale(area.y + (row(0.0) / 4) as u16, 0.0, buffer);
+    // What the height stands for: 1 where the curves get that far, else the tenth above the highest.
+    let top = if high >= 1.0 { 1.0 } else { high };
+    for value in [top, 0.0] {
+        let text = format!("{value:.1}").replace("0.0", "0").replace("1.0", "1").replace("0.", ".");
+        let wide = cells(&text);
+        put(buffer, area.x.saturating_sub(wide), area.y + (row(value) / 4) as u16, wide, &text, DIM);
     }
     let mut edge: Vec<Vec<Emotion>> = vec![Vec::new(); usize::from(area.height)];
     let mut peaks = Vec::new();

@@ -38,9 +38,9 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
                 put(buffer, x, row.y, 1, " ", style);
             }
         }
-        // The boundary, then the text; where there is room for one of them, the text.
+        // The boundary, then the text; where there is room for one character alone, that.
         let room = at(end).saturating_sub(at(start));
-        let bounded = start >= 0 && room != cells(&syllable.text);
+        let bounded = start >= 0 && !(room <= 2 && room == cells(&syllable.text));
         if bounded {
             put(buffer, at(start), row.y, 1, "│", style);
         }

@@ -29,7 +29,7 @@ pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face
     said::syllables(buffer, layout, editor, clip, state.colours);
     name(buffer, layout.mouth, "mouth", on(Lane::Keys(Track::Mouth)));
     keyrows::mouth(buffer, layout.mouth, editor, state.colours);
-    name(buffer, layout.curves, "ratios", false);
+    name(buffer, layout.curves, "ratio", false);
     curves::curves(buffer, layout.curves, editor, state.colours);
     for (lane, row) in &layout.keys {
         name(buffer, *row, lane.map_or("keys", Lane::name), lane.is_some_and(on));
