@@ -19,4 +19,5 @@ pub mod plot;
 pub mod render;
 pub mod project;
 pub mod export;
+pub mod studio;
 pub mod cli;

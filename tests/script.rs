@@ -1,6 +1,8 @@
 //! The script room from outside: the whole table of syllables in every spelling, polyphones in real sentences, numbers,
 //! romanisations, English, and the command that prints them.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 

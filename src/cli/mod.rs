@@ -6,7 +6,9 @@ mod completions;
 mod convert;
 mod export;
 mod new;
+mod play;
 mod plot;
+mod studio;
 mod syllables;
 
 use std::io::Write;
@@ -35,6 +37,8 @@ enum Command {
     Check(check::Args),
     /// Write lessons as frames and subtitles.
     Export(export::Args),
+    /// Play a clip's face in the terminal.
+    Play(play::Args),
     /// Draw charts of a clip: ratios, change, timeline, faces, a frame.
     Plot(plot::Args),
     /// Turn a timing file or a ratio record into another format.
@@ -54,10 +58,13 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::New(args)) => new::run(args, out),
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
+        Some(Command::Play(args)) => play::run(args),
         Some(Command::Plot(args)) => plot::run(args, out),
         Some(Command::Convert(args)) => convert::run(args, out),
         Some(Command::Syllables(args)) => syllables::run(args, out),
         Some(Command::Completions(args)) => completions::run(args, out),
+        None if studio::is_possible() => studio::open(cli.folder.as_deref()),
+        // A script that calls it by mistake must not wait for ever.
         None => {
             let help = Cli::command().render_help();
             write!(out, "{help}").map_err(output_fault)

@@ -28,6 +28,18 @@ impl Lesson {
         self.history.mark_saved();
         Ok(written)
     }
+
+    /// Drops every change that is not in the files: the journal forgets them, so that no later run brings them back,
+    /// and the lesson in memory, which still has them, is given up.
+    ///
+    /// # Errors
+    /// When the journal cannot be emptied.
+    pub fn discard(mut self) -> Result<()> {
+        match &mut self.journal {
+            Some(journal) => journal.clear(),
+            None => Ok(()),
+        }
+    }
 }
 
 impl Clip {

@@ -1,0 +1,97 @@
+//! What a key can ask for. The key table says which keys ask for what; `execute` alone carries it out.
+
+/// One thing to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// Move the choice in a list by so many.
+    Choose(i32),
+    /// Open what is chosen.
+    Open,
+    /// Go back to where one came from, or leave.
+    Back,
+    /// Leave the studio.
+    Quit,
+    /// Show every key of this place.
+    Help,
+    /// Scroll the help by so many lines.
+    Scroll(i32),
+    /// Move the cursor by so many frames.
+    Frames(i32),
+    /// Move the cursor by so many hundredths of a second.
+    Centis(i32),
+    /// Move the cursor by so many screens.
+    Screens(i32),
+    /// Move the cursor to the first instant.
+    First,
+    /// Move the cursor to the last instant.
+    Last,
+    /// Move to another syllable.
+    Syllable(i32),
+    /// Move to another key on the lane.
+    Key(i32),
+    /// Choose another lane.
+    Lane(i32),
+    /// Show less or more of the time: 1 is nearer, -1 farther.
+    Zoom(i32),
+    /// Show the whole clip.
+    Fit,
+    /// Play, or stop playing.
+    Play,
+    /// Begin again at the end, or not.
+    Loop,
+    /// Move the start of the syllable.
+    Start(Nudge),
+    /// Move the end of the syllable.
+    End(Nudge),
+    /// Change what is under the cursor: a key's value, or the syllable's reading.
+    Edit,
+    /// Change the syllable's reading.
+    Reading,
+    /// Add a key to the lane.
+    Add,
+    /// Move the key by so many frames.
+    MoveKey(i32),
+    /// Take the key away.
+    Delete,
+    /// Mark one end of a stretch, then the other.
+    Mark,
+    /// Take the last range edit at the cursor away.
+    DeleteRange,
+    /// Take the last change back.
+    Undo,
+    /// Make the change again.
+    Redo,
+    /// Write the lesson's files.
+    Save,
+    /// Export the clip or the lesson.
+    Export,
+    /// Draw everything anew.
+    Redraw,
+    /// Put a letter into the prompt.
+    Type(char),
+    /// Take the letter before the caret away.
+    Rub,
+    /// Take the letter after the caret away.
+    RubAhead,
+    /// Take everything before the caret away.
+    RubLine,
+    /// Move the caret by so many letters.
+    Caret(i32),
+    /// Accept the prompt.
+    Accept,
+    /// Save, then go on with what was asked.
+    SaveAndGo,
+    /// Drop the changes, then go on with what was asked.
+    DropAndGo,
+    /// Close what lies on top and change nothing.
+    Close,
+}
+
+/// How far a boundary is moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nudge {
+    /// By so many steps of 10 ms.
+    Centis(i32),
+    /// By so many frames.
+    Frames(i32),
+}

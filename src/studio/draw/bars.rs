@@ -1,0 +1,118 @@
+//! The panel beside the face: the seven ratios at the cursor as bars with numbers, and what is there.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+
+use super::{BOLD, DIM, cells, put, put_short};
+use crate::pose::Emotion;
+use crate::project::Clip;
+use crate::studio::editor::Editor;
+use crate::studio::edits;
+use crate::studio::keys::{Place, help_of};
+use crate::studio::look::Colours;
+
+/// The widest bar: beyond, a longer one tells no more.
+const WIDEST: u16 = 50;
+
+/// A panel this wide has room for the keys beside the bars.
+const ROOMY: u16 = 124;
+
+pub(super) fn panel(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Clip, colours: Colours) {
+    let left = Rect { width: area.width.min(78), ..area };
+    ratios(buffer, left, editor, colours);
+    let mut y = area.y + 8.min(area.height);
+    for (text, style) in lines(editor, clip, left.width, colours) {
+        if y < area.bottom() {
+            put_short(buffer, left.x, y, left.width, &text, style);
+            y += 1;
+        }
+    }
+    if area.width >= ROOMY {
+        let keys = Rect { x: left.right() + 3, width: area.right() - left.right() - 3, ..area };
+        for ((names, help), y) in help_of(Place::Timeline).zip(keys.y..keys.bottom()) {
+            put(buffer, keys.x, y, 14, &names, BOLD);
+            put_short(buffer, keys.x + 15, y, keys.width.saturating_sub(15), help, DIM);
+        }
+    }
+}
+
+/// A bar a ratio: letter, name, bar, number.
+fn ratios(buffer: &mut Buffer, area: Rect, editor: &Editor, colours: Colours) {
+    let ratios = editor.timeline.ratios(editor.cursor);
+    let widest = area.width.saturating_sub(19).min(WIDEST);
+    for (emotion, y) in Emotion::ALL.into_iter().zip(area.y..area.bottom()) {
+        let style = colours.of_emotion(emotion);
+        put(buffer, area.x, y, 1, &emotion.letter().to_string(), style.add_modifier(Modifier::BOLD));
+        put(buffer, area.x + 2, y, 9, emotion.name(), Style::new());
+        let value = ratios[emotion];
+        put(buffer, area.x + 12, y, widest, &bar(value, widest), style);
+        let text = format!("{value:>5.2}").replace("-0.00", " 0.00");
+        put(buffer, area.x + 13 + widest, y, 5, &text, Style::new());
+    }
+}
+
+/// A bar from 0 to 1 in eighths of a cell; below 0 and beyond 1 an arrow says so.
+fn bar(value: f64, widest: u16) -> String {
+    if value < -0.005 {
+        return "◂".into();
+    }
+    let eighths = (value.min(1.0) * f64::from(widest) * 8.0).round().max(0.0) as usize;
+    let mut text = "█".repeat(eighths / 8);
+    if !eighths.is_multiple_of(8) {
+        text.extend(char::from_u32(0x2590 - (eighths % 8) as u32));
+    }
+    if value > 1.005 {
+        text.pop();
+        text.push('▸');
+    }
+    text
+}
+
+/// What is at the cursor, line by line, the most telling first.
+fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(String, Style)> {
+    let duration = editor.timeline.duration();
+    let last = editor.timeline.frames().saturating_sub(1);
+    let mut now = format!("{:.3} of {duration:.2} s   frame {} (last {last})", editor.cursor, editor.frame());
+    let shown = format!("   {:.2} s shown", editor.window.span.min(duration));
+    if cells(&now) + cells(&shown) <= width {
+        now.push_str(&shown);
+    }
+    let mut lines = vec![(now, Style::new())];
+    if let Some((index, syllable, interval)) =
+        editor.syllable.and_then(|i| Some((i, clip.syllables.get(i)?, clip.intervals().get(i)?)))
+    {
+        let reading = match (syllable.pinyin.as_str(), syllable.zhuyin.as_str()) {
+            ("", _) => String::new(),
+            (pinyin, zhuyin) => format!(" {pinyin} {zhuyin}"),
+        };
+        let guessed = Editor::is_guessed(clip, index);
+        let style = if guessed { colours.warning() } else { Style::new() };
+        let mark = if guessed { "   guessed?" } else { "" };
+        let text = format!("{}{reading}   {:.3} to {:.3} s{mark}", syllable.text, interval.start, interval.end);
+        lines.push((text, style));
+    }
+    let (_, shape) = editor.timeline.mouth(editor.cursor);
+    let shape = shape.map_or("rest".into(), |s| s.to_string());
+    let key = edits::key_line(editor, clip).map_or(String::new(), |k| format!("   {k}"));
+    lines.push((format!("mouth {shape}{key}"), Style::new()));
+    if let Some(mark) = editor.mark {
+        lines.push((format!("marked from {mark:.3} s: v at the other end"), colours.warning()));
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_count_in_eighths_and_arrows_say_what_is_beyond() {
+        assert_eq!(bar(0.5, 10), "█████");
+        assert_eq!(bar(0.0625, 2), "▏");
+        assert_eq!(bar(0.125, 4), "▌");
+        assert_eq!(bar(-0.2, 4), "◂");
+        assert_eq!(bar(1.5, 4), "███▸");
+        assert_eq!(bar(0.0, 4), "");
+    }
+}

@@ -1,0 +1,79 @@
+//! Where everything of the timeline lies on a screen.
+
+use ratatui::layout::Rect;
+
+use super::LEAST;
+use crate::studio::picture::FacePicture;
+use crate::studio::state::State;
+use crate::studio::{Lane, Place};
+use crate::timeline::Track;
+
+/// Cells left of the lanes, for their names.
+const NAMES: u16 = 9;
+
+/// Cells right of the lanes, for the letters of the curves.
+const LETTERS: u16 = 5;
+
+/// The places of the timeline's parts.
+#[derive(Debug, Clone)]
+pub(in crate::studio) struct Layout {
+    pub area: Rect,
+    pub face: Rect,
+    pub panel: Rect,
+    pub ruler: Rect,
+    pub wave: Rect,
+    pub said: Rect,
+    pub pinyin: Rect,
+    pub mouth: Rect,
+    pub curves: Rect,
+    /// The lanes of keys below; none of its own where one row shows them all.
+    pub keys: Vec<(Option<Lane>, Rect)>,
+}
+
+impl Layout {
+    /// The layout of the timeline; none on other screens and where there is no room.
+    pub fn of(area: Rect, state: &State) -> Option<Self> {
+        if area.width < LEAST.0 || area.height < LEAST.1 || state.screen() != Place::Timeline {
+            return None;
+        }
+        let editor = state.editor.as_ref()?;
+        // Head and foot take a line each; ruler, said, pinyin and mouth one each.
+        let room = area.height - 2;
+        let key_rows = if room >= 26 { 4 } else { 1 };
+        let least = 4 + key_rows;
+        let spare = room.saturating_sub(least + 2 + 3 + 12);
+        let (curves, wave) = ((3 + spare * 3 / 10).min(12), (2 + spare / 5).min(6));
+        let top = room - least - curves - wave;
+        // The face has its shape, the panel the rest.
+        let upper = Rect::new(area.x, area.y + 1, area.width, top);
+        let most = upper.width.saturating_sub(40);
+        let face_width = FacePicture::size_in(&editor.figure, (most, top).into()).width;
+        let face = Rect { x: upper.x + 1, width: face_width, ..upper };
+        let left = face.right() + 2;
+        let panel = Rect { x: left, width: area.right().saturating_sub(left + 1), ..upper };
+        let mut y = upper.bottom();
+        let mut next = |height| {
+            let rows = Rect::new(area.x + NAMES, y, area.width - NAMES - LETTERS, height);
+            y += height;
+            rows
+        };
+        let (ruler, wave, said) = (next(1), next(wave), next(1));
+        let (pinyin, mouth, curves) = (next(1), next(1), next(curves));
+        let own = |lane: &Lane| matches!(lane, Lane::Keys(t) if *t != Track::Mouth);
+        let keys = match key_rows {
+            1 => vec![(Some(editor.lane).filter(own), next(1))],
+            _ => Lane::ALL.iter().filter(|l| own(l)).map(|l| (Some(*l), next(1))).collect(),
+        };
+        Some(Self { area, face, panel, ruler, wave, said, pinyin, mouth, curves, keys })
+    }
+
+    /// How many columns of time there are.
+    pub fn columns(&self) -> u16 {
+        self.ruler.width
+    }
+
+    /// The last row of the lanes.
+    pub fn bottom(&self) -> u16 {
+        self.keys.last().map_or(self.curves.bottom(), |(_, r)| r.bottom())
+    }
+}

@@ -1,0 +1,101 @@
+//! Drawing: a read-only look at the state becomes cells. Nothing is decided here.
+
+mod bars;
+mod curves;
+mod foot;
+mod keyrows;
+mod layout;
+mod lists;
+mod overlays;
+mod said;
+mod sound;
+mod timeline;
+
+pub(super) use foot::foot;
+pub(super) use layout::Layout;
+pub(super) use overlays::help;
+
+use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use unicode_width::UnicodeWidthStr;
+
+use super::Place;
+use super::picture::FacePicture;
+use super::state::State;
+
+/// The smallest terminal that a studio fits into.
+pub(super) const LEAST: (u16, u16) = (60, 20);
+
+pub(super) const BOLD: Style = Style::new().add_modifier(Modifier::BOLD);
+pub(super) const DIM: Style = Style::new().add_modifier(Modifier::DIM);
+pub(super) const CHOSEN: Style = Style::new().add_modifier(Modifier::REVERSED);
+
+/// Draws everything.
+pub(super) fn screen(frame: &mut Frame<'_>, state: &State, layout: Option<&Layout>, face: &FacePicture) {
+    let area = frame.area();
+    let buffer = frame.buffer_mut();
+    if is_too_small(buffer, area) {
+        return;
+    }
+    match (state.screen(), layout) {
+        (Place::Timeline, Some(layout)) => timeline::timeline(buffer, layout, state, face),
+        (Place::Lesson, _) => lists::lesson(buffer, area, state),
+        _ => lists::lessons(buffer, area, state),
+    }
+    foot(buffer, area, state.place(), state.message.as_ref(), state.busy.as_deref(), state.colours);
+    if let Some(caret) = overlays::overlays(buffer, area, state) {
+        frame.set_cursor_position(caret);
+    }
+}
+
+/// Says so where a terminal is too small for anything else.
+pub(super) fn is_too_small(buffer: &mut Buffer, area: Rect) -> bool {
+    let too_small = area.width < LEAST.0 || area.height < LEAST.1;
+    if too_small {
+        let text = format!("{} × {} is too small", area.width, area.height);
+        put(buffer, area.x, area.y, area.width, &text, BOLD);
+        if area.height > 1 {
+            let help = format!("make it {} × {} or larger", LEAST.0, LEAST.1);
+            put(buffer, area.x, area.y + 1, area.width, &help, Style::new());
+        }
+    }
+    too_small
+}
+
+/// Puts text into at most `width` cells and says how many it took. Wide letters are not cut in half, and what is no
+/// letter is left out.
+pub(super) fn put(buffer: &mut Buffer, x: u16, y: u16, width: u16, text: &str, style: Style) -> u16 {
+    if !buffer.area.contains((x, y).into()) || width == 0 {
+        return 0;
+    }
+    let (end, _) = buffer.set_stringn(x, y, text, usize::from(width), style);
+    end.saturating_sub(x)
+}
+
+/// The same, with an ellipsis where it does not fit.
+pub(super) fn put_short(buffer: &mut Buffer, x: u16, y: u16, width: u16, text: &str, style: Style) -> u16 {
+    if cells(text) <= width || width == 0 {
+        return put(buffer, x, y, width, text, style);
+    }
+    let used = put(buffer, x, y, width - 1, text, style);
+    used + put(buffer, x + used, y, 1, "…", style)
+}
+
+/// How many cells a text takes.
+pub(super) fn cells(text: &str) -> u16 {
+    u16::try_from(text.width()).unwrap_or(u16::MAX)
+}
+
+/// The line at the top: where one is, and at the right how it stands.
+pub(super) fn head(buffer: &mut Buffer, area: Rect, path: &[&str], standing: &str, standing_style: Style) {
+    let right = cells(standing);
+    let mut x = area.x + put(buffer, area.x, area.y, area.width, " 臉譜 Lianpu", BOLD);
+    let room = area.right().saturating_sub(right + 2);
+    for part in path {
+        x += put(buffer, x, area.y, room.saturating_sub(x), " › ", DIM);
+        x += put_short(buffer, x, area.y, room.saturating_sub(x), part, BOLD);
+    }
+    put(buffer, area.right().saturating_sub(right + 1), area.y, right, standing, standing_style);
+}

@@ -1,0 +1,122 @@
+//! What lies on top of a screen: the help, a line to type, a question, a running export.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Modifier, Style};
+use ratatui::widgets::{Block, BorderType, Clear, Widget};
+
+use super::lists::folded;
+use super::{BOLD, CHOSEN, DIM, cells, put, put_short};
+use crate::studio::export::Progress;
+use crate::studio::keys::{Place, help_of};
+use crate::studio::overlay::{Overlay, Prompt};
+use crate::studio::state::State;
+
+/// Draws what lies on top, in order; where the caret stands, if a line is being typed.
+pub(super) fn overlays(buffer: &mut Buffer, area: Rect, state: &State) -> Option<Position> {
+    let mut caret = None;
+    for overlay in &state.overlays {
+        caret = match overlay {
+            Overlay::Help { of, scrolled } => {
+                help(buffer, area, *of, *scrolled);
+                None
+            }
+            Overlay::Prompt(asked) => Some(prompt(buffer, area, asked, state)),
+            Overlay::Confirm(_) => {
+                confirm(buffer, area);
+                None
+            }
+            Overlay::Export { progress, .. } => {
+                export(buffer, area, progress);
+                None
+            }
+        };
+    }
+    caret
+}
+
+/// A box in the middle, empty; its inside. It stands in the upper half, where it does not cover the lanes.
+fn boxed(buffer: &mut Buffer, area: Rect, width: u16, height: u16, title: &str) -> Rect {
+    let (width, height) = ((width + 4).min(area.width), (height + 2).min(area.height));
+    let place = Rect::new(area.x + (area.width - width) / 2, area.y + (area.height - height) / 3, width, height);
+    // A wide letter whose half lies under the edge would leave the edge one cell off.
+    if place.x > area.x {
+        for y in place.y..place.bottom() {
+            if let Some(cell) = buffer.cell_mut((place.x - 1, y))
+                && cells(cell.symbol()) > 1
+            {
+                cell.set_char(' ');
+            }
+        }
+    }
+    Clear.render(place, buffer);
+    let block = Block::bordered().border_type(BorderType::Rounded).title(format!(" {title} ")).title_style(BOLD);
+    block.render(place, buffer);
+    Rect::new(place.x + 2, place.y + 1, width.saturating_sub(4), height.saturating_sub(2))
+}
+
+/// Every key of a place.
+pub(in crate::studio) fn help(buffer: &mut Buffer, area: Rect, of: Place, scrolled: usize) {
+    let rows: Vec<(String, &str)> = help_of(of).collect();
+    let keys = rows.iter().map(|r| cells(&r.0)).max().unwrap_or(0) + 2;
+    let width = rows.iter().map(|r| keys + cells(r.1)).max().unwrap_or(0);
+    // Two lines above and below stay free, so that one sees that something lies below.
+    let height = (rows.len() as u16).min(area.height.saturating_sub(4));
+    let first = scrolled.min(rows.len() - usize::from(height));
+    let more = rows.len() > usize::from(height);
+    let title = if more { "Keys: ↑ ↓ for more, Esc closes" } else { "Keys: Esc closes" };
+    let inside = boxed(buffer, area, width, height, title);
+    for ((names, help), y) in rows[first..].iter().zip(inside.y..inside.bottom()) {
+        put(buffer, inside.x, y, keys, names, BOLD);
+        put_short(buffer, inside.x + keys, y, inside.width.saturating_sub(keys), help, Style::new());
+    }
+}
+
+/// A line to type; where its caret stands.
+fn prompt(buffer: &mut Buffer, area: Rect, prompt: &Prompt, state: &State) -> Position {
+    let below = prompt.fault.as_deref().unwrap_or(prompt.help);
+    let width = area.width.saturating_sub(8).min(70);
+    let lines = folded(below, width);
+    let inside = boxed(buffer, area, width, 2 + lines.len() as u16, &prompt.title);
+    // Of a long line the part before the caret is shown.
+    let room = inside.width.saturating_sub(3);
+    let mut start = 0;
+    let before = prompt.line.before_caret();
+    while cells(&before[start..]) > room {
+        start += before[start..].chars().next().map_or(1, char::len_utf8);
+    }
+    let typed = if prompt.line.is_proposed() { CHOSEN } else { BOLD };
+    put(buffer, inside.x, inside.y, 2, "> ", DIM);
+    put(buffer, inside.x + 2, inside.y, inside.width - 2, &prompt.line.text()[start..], typed);
+    let style = if prompt.fault.is_some() { state.colours.warning() } else { DIM };
+    for (line, y) in lines.iter().zip(inside.y + 2..inside.bottom()) {
+        put(buffer, inside.x, y, inside.width, line, style);
+    }
+    Position::new(inside.x + 2 + cells(&before[start..]), inside.y)
+}
+
+fn confirm(buffer: &mut Buffer, area: Rect) {
+    let inside = boxed(buffer, area, 44, 3, "There are unsaved changes");
+    for ((key, text), y) in [("s", "save them, then go"), ("d", "discard them, then go"), ("Esc", "stay here")]
+        .into_iter()
+        .zip(inside.y..inside.bottom())
+    {
+        put(buffer, inside.x, y, 4, key, BOLD);
+        put(buffer, inside.x + 5, y, inside.width.saturating_sub(5), text, Style::new());
+    }
+}
+
+fn export(buffer: &mut Buffer, area: Rect, progress: &Progress) {
+    let inside = boxed(buffer, area, 50, 2, "Exporting: Esc stops it");
+    let share = if progress.total == 0 { 0.0 } else { progress.done as f64 / progress.total as f64 };
+    let full = (share.clamp(0.0, 1.0) * f64::from(inside.width)).round() as u16;
+    for column in 0..inside.width {
+        let text = if column < full { "█" } else { "░" };
+        put(buffer, inside.x + column, inside.y, 1, text, Style::new().remove_modifier(Modifier::DIM));
+    }
+    let text = match progress.total {
+        0 => progress.what.clone(),
+        total => format!("{} of {total}   {}", progress.done, progress.what),
+    };
+    put_short(buffer, inside.x, inside.y + 1, inside.width, &text, Style::new());
+}

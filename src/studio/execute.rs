@@ -1,0 +1,319 @@
+//! The one place where actions are carried out. It changes the state and names the work that a thread is to do; it
+//! draws nothing, waits for nothing and knows no terminal.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::editor::Editor;
+use super::export::{ExportRequest, Progress};
+use super::line::Line;
+use super::overlay::{Overlay, Prompt, Purpose};
+use super::state::State;
+use super::{Action, Place, edits};
+use crate::speech::Sound;
+
+/// Work that takes long enough to be done elsewhere.
+#[derive(Debug)]
+pub enum Job {
+    /// Open a lesson and check it.
+    Open(PathBuf),
+    /// Make the outline of a clip's sound; the sound comes back with it.
+    Outline {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its sound.
+        sound: Sound,
+    },
+    /// Export.
+    Export {
+        /// What.
+        request: ExportRequest,
+        /// Set to stop it.
+        cancel: Arc<AtomicBool>,
+    },
+}
+
+/// Carries out an action.
+pub fn execute(state: &mut State, action: Action) -> Option<Job> {
+    if !matches!(action, Action::Redraw) {
+        state.message = None;
+    }
+    // Whatever is pressed besides play and zoom takes the author's hand to the cursor: it stops.
+    if !matches!(action, Action::Play | Action::Zoom(_) | Action::Fit | Action::Redraw)
+        && let Some(editor) = &mut state.editor
+    {
+        editor.playing = None;
+    }
+    match action {
+        Action::Redraw => state.redraw = true,
+        Action::Help => state.overlays.push(Overlay::Help { of: state.place(), scrolled: 0 }),
+        Action::Quit => leave(state, Action::Quit),
+        Action::Back => back(state),
+        Action::Choose(by) => choose(state, by),
+        Action::Open => return open(state),
+        Action::Save => save(state),
+        Action::Export => ask_export(state),
+        Action::Undo | Action::Redo => edits::retrace(state, action),
+        _ if !state.overlays.is_empty() => return on_top(state, action),
+        _ => on_timeline(state, action),
+    }
+    None
+}
+
+fn choose(state: &mut State, by: i32) {
+    let moved = |at: usize, length: usize| (at as i32 + by).clamp(0, length.saturating_sub(1) as i32) as usize;
+    match &mut state.open {
+        Some(open) => open.chosen = moved(open.chosen, open.lesson.as_ref().map_or(0, |l| l.clips.len())),
+        None => state.chosen = moved(state.chosen, state.lessons.len()),
+    }
+}
+
+fn open(state: &mut State) -> Option<Job> {
+    match state.screen() {
+        Place::Projects => {
+            let listed = state.lessons.get(state.chosen)?;
+            state.busy = Some(format!("opening {}…", listed.name));
+            Some(Job::Open(listed.root.clone()))
+        }
+        Place::Lesson => open_clip(state),
+        _ => None,
+    }
+}
+
+/// Puts the chosen clip on the desk. Its sound goes to a thread that makes the outline.
+fn open_clip(state: &mut State) -> Option<Job> {
+    let chosen = state.open.as_ref()?.chosen;
+    let figure = {
+        let lesson = state.lesson()?;
+        lesson.figure_of(&lesson.clips.get(chosen)?.entry)
+    };
+    let figure = match figure {
+        Ok(figure) => figure,
+        Err(fault) => {
+            state.say_fault(&fault);
+            return None;
+        }
+    };
+    let mut editor = Editor::new(state.lesson()?, chosen, figure);
+    let sound = state.lesson_mut()?.clips[chosen].sound.take();
+    if sound.is_none() {
+        editor.loudest = Some(0.0);
+    }
+    let why = state.lesson()?.read_only.clone();
+    state.editor = Some(editor);
+    if let Some(why) = why {
+        state.say(format!("you can look but not change: {why}"));
+    }
+    let root = state.lesson()?.root.clone();
+    sound.map(|sound| Job::Outline { root, clip: chosen, sound })
+}
+
+fn back(state: &mut State) {
+    match state.screen() {
+        Place::Timeline if state.editor.as_ref().is_some_and(|e| e.mark.is_some()) => {
+            if let Some(editor) = &mut state.editor {
+                editor.mark = None;
+            }
+            state.say("the mark is gone");
+        }
+        // The changes stay with the lesson; they are asked about when the lesson is left.
+        Place::Timeline => state.editor = None,
+        _ => leave(state, Action::Back),
+    }
+}
+
+/// Leaves the lesson or the studio, after a question where something would be lost.
+fn leave(state: &mut State, by: Action) {
+    if state.overlays.iter().any(|o| matches!(o, Overlay::Export { .. })) {
+        state.refuse("an export is running: Esc stops it");
+        return;
+    }
+    state.overlays.clear();
+    if state.is_unsaved() {
+        state.overlays.push(Overlay::Confirm(by));
+        return;
+    }
+    go(state, by);
+}
+
+fn go(state: &mut State, by: Action) {
+    state.overlays.clear();
+    match by {
+        Action::Quit => state.leaving = true,
+        _ => {
+            state.editor = None;
+            state.open = None;
+        }
+    }
+}
+
+fn save(state: &mut State) {
+    let Some(lesson) = state.lesson_mut() else { return };
+    match lesson.save() {
+        Ok(written) if written.is_empty() => state.say("saved: nothing had changed"),
+        Ok(written) => {
+            let names: Vec<String> =
+                written.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy().into_owned()).collect();
+            state.say(format!("saved {}", names.join(", ")));
+        }
+        Err(fault) => state.say_fault(&fault),
+    }
+}
+
+fn ask_export(state: &mut State) {
+    let Some(lesson) = state.lesson() else { return };
+    let what = state.clip().map_or_else(|| lesson.manifest.title.clone(), |c| c.entry.name.clone());
+    state.overlays.push(Overlay::Prompt(Prompt {
+        purpose: Purpose::Export,
+        title: format!("Export {what} as"),
+        help: "formats as in `lianpu export --to`, such as png or png,srt; what is unsaved is saved first",
+        line: Line::new("png"),
+        fault: None,
+    }));
+}
+
+/// What the things on top understand.
+fn on_top(state: &mut State, action: Action) -> Option<Job> {
+    match (state.overlays.last_mut()?, action) {
+        (Overlay::Export { cancel, .. }, Action::Close) => {
+            cancel.store(true, Ordering::Relaxed);
+            state.say("stopping the export…");
+        }
+        (Overlay::Help { scrolled, .. }, Action::Scroll(by)) => {
+            *scrolled = (*scrolled as i32 + by).clamp(0, 100) as usize;
+        }
+        (Overlay::Confirm(by), Action::DropAndGo) => {
+            let by = *by;
+            state.editor = None;
+            match state.open.take().map(|open| open.lesson) {
+                Some(Ok(lesson)) => match lesson.discard() {
+                    Ok(()) => go(state, by),
+                    Err(fault) => state.say_fault(&fault),
+                },
+                _ => go(state, by),
+            }
+        }
+        (Overlay::Confirm(by), Action::SaveAndGo) => {
+            let by = *by;
+            save(state);
+            match state.is_unsaved() {
+                false => go(state, by),
+                // What went wrong stays on the screen, and so do the changes.
+                true => state.overlays.clear(),
+            }
+        }
+        (Overlay::Prompt(prompt), action) => match action {
+            Action::Accept => return accept(state),
+            Action::Close => {
+                state.overlays.pop();
+            }
+            Action::Type(letter) => prompt.line.put(letter.encode_utf8(&mut [0; 4])),
+            Action::Rub => prompt.line.rub(),
+            Action::RubAhead => prompt.line.rub_ahead(),
+            Action::RubLine => prompt.line.rub_line(),
+            Action::Caret(by) => prompt.line.move_caret(by),
+            _ => {}
+        },
+        (_, Action::Close) => {
+            state.overlays.pop();
+        }
+        _ => {}
+    }
+    None
+}
+
+/// Takes what was typed, or says in the prompt what is wrong with it.
+fn accept(state: &mut State) -> Option<Job> {
+    let Some(Overlay::Prompt(mut prompt)) = state.overlays.pop() else { return None };
+    if prompt.purpose == Purpose::Export {
+        return start_export(state, prompt.line.text());
+    }
+    if let Err(fault) = edits::take(state, prompt.purpose, prompt.line.text().trim()) {
+        prompt.fault = Some(fault);
+        state.overlays.push(Overlay::Prompt(prompt));
+    }
+    None
+}
+
+fn start_export(state: &mut State, formats: &str) -> Option<Job> {
+    if state.is_unsaved() {
+        save(state);
+        if state.is_unsaved() {
+            return None;
+        }
+    }
+    let request = ExportRequest {
+        project: state.lesson()?.root.clone(),
+        clip: state.clip().map(|c| c.entry.name.clone()),
+        formats: formats.split_whitespace().collect(),
+    };
+    let cancel = Arc::new(AtomicBool::new(false));
+    state.overlays.push(Overlay::Export { progress: Progress::default(), cancel: Arc::clone(&cancel) });
+    Some(Job::Export { request, cancel })
+}
+
+/// What the timeline understands.
+fn on_timeline(state: &mut State, action: Action) {
+    if edits::execute(state, action) {
+        return;
+    }
+    let clips = state.open.as_ref().and_then(|o| o.lesson.as_ref().ok()).map(|l| &l.clips);
+    let (Some(clips), Some(editor)) = (clips, &mut state.editor) else { return };
+    let clip = &clips[editor.clip];
+    let duration = editor.timeline.duration();
+    match action {
+        Action::Frames(by) => editor.step(clip, by),
+        Action::Centis(by) => editor.go(clip, ((editor.cursor * 100.0).round() + f64::from(by)) / 100.0),
+        Action::Screens(by) => editor.go(clip, editor.cursor + f64::from(by) * editor.window.span),
+        Action::First => editor.go(clip, 0.0),
+        Action::Last => editor.go(clip, f64::MAX),
+        Action::Lane(by) => editor.lane = editor.lane.moved(by),
+        Action::Zoom(by) => editor.window = editor.window.zoomed(by, editor.cursor, duration),
+        Action::Fit => editor.window = super::window::Window::whole(duration),
+        Action::Syllable(by) => {
+            let Some(last) = clip.intervals().len().checked_sub(1) else {
+                state.refuse("this clip has no syllables: write its script.txt");
+                return;
+            };
+            // From outside a syllable the selected one is the nearest, which is the first step's goal.
+            let here = editor.syllable.unwrap_or(0);
+            let start = clip.intervals()[here].start;
+            let before = by > 0 && editor.cursor < start - 1e-9;
+            let after = by < 0 && editor.cursor > start + 1e-9;
+            let goal = if before || after { here } else { (here as i32 + by).clamp(0, last as i32) as usize };
+            editor.go(clip, clip.intervals()[goal].start);
+            editor.syllable = Some(goal);
+        }
+        Action::Key(by) => {
+            let super::Lane::Keys(track) = editor.lane else {
+                state.say("keys lie on the lanes below: ↓");
+                return;
+            };
+            let keys = editor.keys_on(clip, track);
+            let mut beyond = keys.iter().map(|k| k.time()).filter(|t| {
+                let away = t - editor.cursor;
+                away * f64::from(by) > 1e-6
+            });
+            match if by > 0 { beyond.next() } else { beyond.next_back() } {
+                Some(time) => editor.go(clip, time),
+                None => state
+                    .say(format!("no more keys on this lane {}", if by > 0 { "after here" } else { "before here" })),
+            }
+        }
+        Action::Play => match editor.playing {
+            Some(_) => editor.playing = None,
+            None => {
+                let from = if editor.cursor >= editor.last() - 1e-6 { 0.0 } else { editor.cursor };
+                editor.playing = Some(from);
+                if !state.said_silent {
+                    state.said_silent = true;
+                    state.say("playing without sound: this version has none yet");
+                }
+            }
+        },
+        _ => {}
+    }
+}

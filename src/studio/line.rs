@@ -1,0 +1,145 @@
+//! A line of text being typed: the text and its caret.
+
+use crate::disk::clean_line;
+
+/// The longest line, in letters.
+const LIMIT: usize = 200;
+
+/// A line being typed.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Line {
+    text: String,
+    /// Before which letter the caret stands, counted in letters.
+    caret: usize,
+    /// Whether all of it was proposed and not touched yet: the first letter typed takes its place.
+    proposed: bool,
+}
+
+impl Line {
+    /// A line that proposes a text, the caret behind it. Typing replaces it; moving the caret first keeps it.
+    #[must_use]
+    pub fn new(text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self { caret: text.chars().count(), proposed: !text.is_empty(), text }
+    }
+
+    /// Whether the text is a proposal that the next letter replaces.
+    #[must_use]
+    pub fn is_proposed(&self) -> bool {
+        self.proposed
+    }
+
+    /// What was typed.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// What stands before the caret.
+    #[must_use]
+    pub fn before_caret(&self) -> &str {
+        &self.text[..self.byte(self.caret)]
+    }
+
+    /// Puts text in; what could act on a terminal is left out.
+    pub fn put(&mut self, text: &str) {
+        self.drop_proposal();
+        let clean: String = if text == " " { " ".into() } else { clean_line(text, LIMIT) };
+        let room = LIMIT.saturating_sub(self.text.chars().count());
+        let clean: String = clean.chars().take(room).collect();
+        self.text.insert_str(self.byte(self.caret), &clean);
+        self.caret += clean.chars().count();
+    }
+
+    /// Takes the letter before the caret away.
+    pub fn rub(&mut self) {
+        self.drop_proposal();
+        if self.caret > 0 {
+            self.caret -= 1;
+            self.text.remove(self.byte(self.caret));
+        }
+    }
+
+    /// Takes the letter after the caret away.
+    pub fn rub_ahead(&mut self) {
+        self.drop_proposal();
+        let at = self.byte(self.caret);
+        if at < self.text.len() {
+            self.text.remove(at);
+        }
+    }
+
+    /// Takes everything before the caret away.
+    pub fn rub_line(&mut self) {
+        self.proposed = false;
+        self.text.replace_range(..self.byte(self.caret), "");
+        self.caret = 0;
+    }
+
+    /// Moves the caret by so many letters, as far as there are any.
+    pub fn move_caret(&mut self, by: i32) {
+        self.proposed = false;
+        let moved = if by < 0 {
+            self.caret.saturating_sub(by.unsigned_abs() as usize)
+        } else {
+            self.caret.saturating_add(by.unsigned_abs() as usize)
+        };
+        self.caret = moved.min(self.text.chars().count());
+    }
+
+    fn drop_proposal(&mut self) {
+        if std::mem::take(&mut self.proposed) {
+            self.text.clear();
+            self.caret = 0;
+        }
+    }
+
+    fn byte(&self, letter: usize) -> usize {
+        self.text.char_indices().nth(letter).map_or(self.text.len(), |(at, _)| at)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_go_in_and_out_where_the_caret_is() {
+        let mut line = Line::new("行2");
+        line.move_caret(-1);
+        line.put("hang");
+        assert_eq!((line.text(), line.before_caret()), ("行hang2", "行hang"));
+        line.rub();
+        line.rub_ahead();
+        assert_eq!(line.text(), "行han");
+        line.move_caret(i32::MIN);
+        line.rub();
+        line.move_caret(1);
+        line.rub_line();
+        assert_eq!((line.text(), line.before_caret()), ("han", ""));
+    }
+
+    #[test]
+    fn a_proposal_is_replaced_by_the_first_letter_and_kept_when_the_caret_moves_first() {
+        let mut line = Line::new("nin2");
+        line.put("h");
+        assert_eq!((line.text(), line.before_caret()), ("h", "h"));
+        let mut line = Line::new("nin2");
+        line.move_caret(0);
+        line.rub();
+        line.put("3");
+        assert_eq!(line.text(), "nin3");
+        let mut line = Line::new("nin2");
+        line.rub();
+        assert_eq!(line.text(), "");
+    }
+
+    #[test]
+    fn nothing_that_could_act_on_a_terminal_gets_in_and_no_line_is_endless() {
+        let mut line = Line::default();
+        line.put("a\x1b[31m\u{202E}b");
+        assert_eq!(line.text(), "a[31mb");
+        line.put(&"x".repeat(5000));
+        assert_eq!(line.text().chars().count(), LIMIT);
+    }
+}

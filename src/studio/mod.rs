@@ -1,0 +1,42 @@
+//! The studio: lessons, clips and timelines on a terminal, edited by keys.
+//!
+//! The way of a key: `terminal` reads it, the key table (`keys`) turns it into an [`Action`], `execute` alone carries
+//! that out on the [`State`], and `draw` shows the state and decides nothing. Work that takes time runs in threads
+//! (`work`) and reports back. The studio owns no lesson data: every edit is a change of the lesson.
+
+mod action;
+mod boundary;
+mod draw;
+mod edits;
+mod editor;
+mod execute;
+mod export;
+mod keys;
+mod lane;
+mod line;
+mod look;
+mod overlay;
+mod picture;
+mod play;
+mod run;
+mod state;
+#[allow(clippy::module_inception, reason = "it is the studio itself")]
+mod studio;
+mod terminal;
+mod typed;
+mod window;
+mod work;
+
+pub use action::{Action, Nudge};
+pub use editor::{Editor, LaneKey};
+pub use export::{ExportRequest, Exporter, Progress};
+pub use keys::{Place, key_table_markdown};
+pub use lane::Lane;
+pub use line::Line;
+pub use look::Colours;
+pub use overlay::{Overlay, Prompt, Purpose};
+pub use play::{Caption, Player, Show, play};
+pub use run::run;
+pub use state::{Listed, Message, Open, State};
+pub use studio::{Report, Studio};
+pub use window::Window;

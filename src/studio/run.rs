@@ -1,0 +1,203 @@
+//! The loop: keys, reports and ticks come in, the screen is drawn when something has changed.
+
+use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, Sender, never, select, unbounded};
+use crossterm::event::{self, KeyEventKind};
+use ratatui::Frame;
+
+use super::export::Exporter;
+use super::keys;
+use super::look::Colours;
+use super::state::State;
+use super::studio::{Report, Studio};
+use super::terminal::{self, Screen};
+use crate::disk::{Fault, Result};
+
+/// Runs the studio on the lessons of a folder, until it is left.
+///
+/// # Errors
+/// When there is no terminal, it fails, or the folder cannot be listed.
+pub fn run(folder: &Path, exporter: Exporter) -> Result<()> {
+    let state = State::new(folder, Colours::of_environment())?;
+    let mut studio = Studio::new(state, exporter);
+    // A folder that is a lesson opens at once.
+    if studio.state.lessons.first().is_some_and(|l| l.root == folder) {
+        studio.handle(super::Action::Open);
+    }
+    let reports = studio.reports().clone();
+    turn(&mut studio, &reports)
+}
+
+/// What the loop drives.
+pub(super) trait Desk {
+    /// A key by its name in the table; whether something may have changed.
+    fn key(&mut self, name: &str) -> bool;
+    /// Pasted text.
+    fn paste(&mut self, _text: &str) {}
+    /// A report of a thread.
+    fn receive(&mut self, _report: Report) {}
+    /// So many seconds have passed while it plays; whether there is something new to show.
+    fn advance(&mut self, seconds: f64) -> bool;
+    /// Seconds to the next frame while it plays.
+    fn beat(&self) -> Option<f64>;
+    /// Whether everything is to be drawn anew; asked once a frame.
+    fn takes_redraw(&mut self) -> bool;
+    /// Whether it is over.
+    fn is_over(&self) -> bool;
+    /// Draws.
+    fn draw(&mut self, frame: &mut Frame<'_>);
+}
+
+impl Desk for Studio {
+    fn key(&mut self, name: &str) -> bool {
+        Studio::key(self, name)
+    }
+
+    fn paste(&mut self, text: &str) {
+        Studio::paste(self, text);
+    }
+
+    fn receive(&mut self, report: Report) {
+        Studio::receive(self, report);
+    }
+
+    fn advance(&mut self, seconds: f64) -> bool {
+        Studio::advance(self, seconds)
+    }
+
+    fn beat(&self) -> Option<f64> {
+        Studio::beat(self)
+    }
+
+    fn takes_redraw(&mut self) -> bool {
+        std::mem::take(&mut self.state.redraw)
+    }
+
+    fn is_over(&self) -> bool {
+        self.state.leaving
+    }
+
+    fn draw(&mut self, frame: &mut Frame<'_>) {
+        Studio::draw(self, frame);
+    }
+}
+
+/// Something from outside.
+enum Event {
+    Terminal(event::Event),
+    /// The terminal is gone, or the program was asked to end.
+    End,
+}
+
+/// Drives a desk on the terminal until it is over.
+pub(super) fn turn(desk: &mut dyn Desk, reports: &Receiver<Report>) -> Result<()> {
+    if !Screen::is_there() {
+        return Err(Fault::new("there is no terminal here").help("run it in a terminal, not in a pipe").of_the_call());
+    }
+    let mut screen = Screen::take()?;
+    let (sender, events) = unbounded();
+    watch_signals(sender.clone())?;
+    // What is drawn first is there before the first key is waited for.
+    screen.draw(|frame| desk.draw(frame))?;
+    thread::spawn(move || read_keys(&sender));
+    let mut last = Instant::now();
+    while !desk.is_over() {
+        let tick = match desk.beat() {
+            Some(seconds) => crossbeam_channel::after(Duration::from_secs_f64(seconds.clamp(0.001, 1.0))),
+            None => never(),
+        };
+        let was_still = desk.beat().is_none();
+        let mut changed = false;
+        select! {
+            recv(events) -> event => match event {
+                Ok(event) => match take(desk, &mut screen, event)? {
+                    Some(new) => changed |= new,
+                    None => return Ok(()),
+                },
+                Err(_) => return Ok(()),
+            },
+            recv(reports) -> report => if let Ok(report) = report {
+                desk.receive(report);
+                changed = true;
+            },
+            recv(tick) -> _ => {}
+        }
+        // Many queued events, one drawing.
+        while let Ok(event) = events.try_recv() {
+            match take(desk, &mut screen, event)? {
+                Some(new) => changed |= new,
+                None => return Ok(()),
+            }
+        }
+        while let Ok(report) = reports.try_recv() {
+            desk.receive(report);
+            changed = true;
+        }
+        // Time passes by the clock, not by ticks: a frame that comes too late is left out.
+        let now = Instant::now();
+        if !was_still {
+            changed |= desk.advance((now - last).as_secs_f64());
+        }
+        last = now;
+        if desk.takes_redraw() {
+            screen.anew()?;
+            changed = true;
+        }
+        if changed && !desk.is_over() {
+            screen.draw(|frame| desk.draw(frame))?;
+        }
+    }
+    Ok(())
+}
+
+/// Takes an event: whether something changed; nothing where it is the end.
+fn take(desk: &mut dyn Desk, screen: &mut Screen, event: Event) -> Result<Option<bool>> {
+    Ok(match event {
+        Event::End => None,
+        Event::Terminal(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
+            Some(keys::name_of(&key).is_some_and(|name| desk.key(&name)))
+        }
+        Event::Terminal(event::Event::Paste(text)) => {
+            desk.paste(&text);
+            Some(true)
+        }
+        Event::Terminal(event::Event::Resize(..)) => {
+            screen.anew()?;
+            Some(true)
+        }
+        Event::Terminal(_) => Some(false),
+    })
+}
+
+fn read_keys(sender: &Sender<Event>) {
+    loop {
+        let event = match event::read() {
+            Ok(event) => Event::Terminal(event),
+            Err(_) => Event::End,
+        };
+        let ends = matches!(event, Event::End);
+        if sender.send(event).is_err() || ends {
+            return;
+        }
+    }
+}
+
+/// Ends the loop when the terminal hangs up or the program is asked to end. Every change is in the journal already.
+/// If the loop does not come round (it may hang in a write to a terminal that is gone), the program ends without it.
+fn watch_signals(sender: Sender<Event>) -> Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])
+        .map_err(|e| Fault::io("cannot watch for signals", "the terminal", e))?;
+    thread::spawn(move || {
+        if let Some(signal) = signals.forever().next() {
+            let _ = sender.send(Event::End);
+            thread::sleep(Duration::from_millis(700));
+            terminal::give_back();
+            std::process::exit(128 + signal);
+        }
+    });
+    Ok(())
+}

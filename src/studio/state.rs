@@ -1,0 +1,162 @@
+//! Everything the studio knows: which lessons there are, which is open, what is on the desk, what lies on top.
+
+use std::path::PathBuf;
+
+use super::Place;
+use super::editor::Editor;
+use super::look::Colours;
+use super::overlay::Overlay;
+use crate::disk::Result;
+use crate::project::{Clip, Finding, Lesson, Manifest, projects_in};
+
+/// The studio's state. Drawing reads it, `execute` changes it.
+#[derive(Debug)]
+pub struct State {
+    /// The folder that was opened.
+    pub folder: PathBuf,
+    /// The lessons in it.
+    pub lessons: Vec<Listed>,
+    /// Which lesson is chosen.
+    pub chosen: usize,
+    /// The open lesson.
+    pub open: Option<Open>,
+    /// The clip on the desk.
+    pub editor: Option<Editor>,
+    /// What lies on top, the last one topmost.
+    pub overlays: Vec<Overlay>,
+    /// What there is to say.
+    pub message: Option<Message>,
+    /// What is being waited for.
+    pub busy: Option<String>,
+    /// What the terminal can show.
+    pub colours: Colours,
+    /// Whether it was said that playing is silent.
+    pub said_silent: bool,
+    /// Whether the studio is to be left.
+    pub leaving: bool,
+    /// Whether the whole screen is to be drawn anew.
+    pub redraw: bool,
+}
+
+/// A lesson in the list.
+#[derive(Debug)]
+pub struct Listed {
+    /// Its folder.
+    pub root: PathBuf,
+    /// The folder's name.
+    pub name: String,
+    /// Its title and number of clips, or what is wrong with its manifest.
+    pub manifest: Result<(String, usize)>,
+}
+
+/// The open lesson, or why it does not open; and what a check found.
+#[derive(Debug)]
+pub struct Open {
+    /// The folder's name.
+    pub name: String,
+    /// The lesson.
+    pub lesson: Result<Lesson>,
+    /// What is there, missing or wrong.
+    pub findings: Vec<Finding>,
+    /// Which clip is chosen.
+    pub chosen: usize,
+}
+
+/// Something to say.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Message {
+    /// What.
+    pub text: String,
+    /// Whether something could not be done.
+    pub is_fault: bool,
+}
+
+impl State {
+    /// The lessons of a folder, or the one it is.
+    ///
+    /// # Errors
+    /// When the folder cannot be listed.
+    pub fn new(folder: impl Into<PathBuf>, colours: Colours) -> Result<Self> {
+        let folder = folder.into();
+        let lessons = projects_in(&folder)?.into_iter().map(Listed::of).collect();
+        Ok(Self {
+            folder,
+            lessons,
+            chosen: 0,
+            open: None,
+            editor: None,
+            overlays: Vec::new(),
+            message: None,
+            busy: None,
+            colours,
+            said_silent: false,
+            leaving: false,
+            redraw: false,
+        })
+    }
+
+    /// Where a key is pressed: on top, or on the screen.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        self.overlays.last().map_or_else(|| self.screen(), Overlay::place)
+    }
+
+    /// The screen below everything that lies on top.
+    #[must_use]
+    pub fn screen(&self) -> Place {
+        match (&self.open, &self.editor) {
+            (Some(_), Some(_)) => Place::Timeline,
+            (Some(_), None) => Place::Lesson,
+            (None, _) => Place::Projects,
+        }
+    }
+
+    /// The lesson that is open.
+    #[must_use]
+    pub fn lesson(&self) -> Option<&Lesson> {
+        self.open.as_ref()?.lesson.as_ref().ok()
+    }
+
+    /// The lesson that is open, to change.
+    pub fn lesson_mut(&mut self) -> Option<&mut Lesson> {
+        self.open.as_mut()?.lesson.as_mut().ok()
+    }
+
+    /// The clip on the desk.
+    #[must_use]
+    pub fn clip(&self) -> Option<&Clip> {
+        self.lesson()?.clips.get(self.editor.as_ref()?.clip)
+    }
+
+    /// Whether there are changes that are not in the files.
+    #[must_use]
+    pub fn is_unsaved(&self) -> bool {
+        self.lesson().is_some_and(Lesson::is_unsaved)
+    }
+
+    /// Says something.
+    pub fn say(&mut self, text: impl Into<String>) {
+        self.message = Some(Message { text: text.into(), is_fault: false });
+    }
+
+    /// Says that something could not be done, and what to do.
+    pub fn refuse(&mut self, text: impl Into<String>) {
+        self.message = Some(Message { text: text.into(), is_fault: true });
+    }
+
+    /// Says what went wrong: what, and what to do, in one line.
+    pub fn say_fault(&mut self, fault: &crate::disk::Fault) {
+        let help = fault.next_step();
+        self.refuse(if help.is_empty() { fault.what().to_owned() } else { format!("{}: {help}", fault.what()) });
+    }
+}
+
+impl Listed {
+    fn of(root: PathBuf) -> Self {
+        // The folder may be given as `.`, which has no name.
+        let whole = root.canonicalize().unwrap_or_else(|_| root.clone());
+        let name = whole.file_name().map_or_else(|| "lesson".into(), |n| n.to_string_lossy().into_owned());
+        let manifest = Manifest::read(&root).map(|m| (m.title, m.clips.len()));
+        Self { name: crate::disk::clean_line(&name, 60), root, manifest }
+    }
+}

@@ -1,0 +1,198 @@
+//! The studio without a terminal: keys and reports go in, a frame comes out.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+use crossbeam_channel::{Receiver, Sender, unbounded};
+use ratatui::Frame;
+
+use super::draw::{self, Layout};
+use super::execute::{Job, execute};
+use super::export::{Exporter, Progress};
+use super::overlay::Overlay;
+use super::picture::FacePicture;
+use super::state::{Open, State};
+use super::{Action, Place, keys, work};
+use crate::disk::Result;
+use crate::project::{Finding, Lesson};
+use crate::speech::Sound;
+
+/// What a thread has to tell.
+#[derive(Debug)]
+pub enum Report {
+    /// A lesson was opened, or does not open.
+    Opened {
+        /// The folder's name.
+        name: String,
+        /// The lesson.
+        lesson: Box<Result<Lesson>>,
+        /// What a check found.
+        findings: Vec<Finding>,
+    },
+    /// The outline of a sound is ready.
+    Outlined {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// The sound, with its outline.
+        sound: Box<Sound>,
+        /// Its loudest sample.
+        loudest: f32,
+    },
+    /// An export goes on.
+    Exporting(Progress),
+    /// An export has ended.
+    Exported(Result<String>),
+}
+
+/// The studio: state, work under way, and the picture of the face.
+pub struct Studio {
+    /// Everything it knows.
+    pub state: State,
+    exporter: Arc<Mutex<Exporter>>,
+    reports: (Sender<Report>, Receiver<Report>),
+    /// Threads that have not reported their end.
+    under_way: usize,
+    face: FacePicture,
+}
+
+impl Studio {
+    /// A studio over a state; `exporter` makes the exports.
+    #[must_use]
+    pub fn new(state: State, exporter: Exporter) -> Self {
+        Self {
+            state,
+            exporter: Arc::new(Mutex::new(exporter)),
+            reports: unbounded(),
+            under_way: 0,
+            face: FacePicture::default(),
+        }
+    }
+
+    /// Takes a key by its name in the key table. Keys that mean nothing here are let pass.
+    pub fn key(&mut self, name: &str) -> bool {
+        let place = self.state.place();
+        // While a lesson opens, keys would go to a screen that is about to change.
+        if self.state.busy.is_some() && place == Place::Projects && !matches!(name, "q" | "Ctrl-c" | "Esc") {
+            return false;
+        }
+        let action = keys::action_of(place, name);
+        if let Some(action) = action {
+            self.handle(action);
+        }
+        action.is_some()
+    }
+
+    /// Carries out an action.
+    pub fn handle(&mut self, action: Action) {
+        if let Some(job) = execute(&mut self.state, action) {
+            self.start(job);
+        }
+    }
+
+    /// Takes pasted text: it goes into a line being typed and nowhere else.
+    pub fn paste(&mut self, text: &str) {
+        if let Some(Overlay::Prompt(prompt)) = self.state.overlays.last_mut() {
+            prompt.line.put(text);
+        }
+    }
+
+    /// Lets so many seconds of playing pass; whether another frame is due.
+    pub fn advance(&mut self, seconds: f64) -> bool {
+        let clips = self.state.open.as_ref().and_then(|o| o.lesson.as_ref().ok()).map(|l| &l.clips);
+        let (Some(clips), Some(editor)) = (clips, &mut self.state.editor) else { return false };
+        let Some(at) = editor.playing.map(|t| t + seconds) else { return false };
+        let before = editor.frame();
+        let over = at >= editor.timeline.duration();
+        let frame = (at * editor.timeline.fps()).floor() / editor.timeline.fps();
+        editor.go(&clips[editor.clip], frame);
+        editor.playing = (!over).then_some(at);
+        over || editor.frame() != before
+    }
+
+    /// Seconds to the next frame while it plays; none while nothing moves.
+    #[must_use]
+    pub fn beat(&self) -> Option<f64> {
+        let editor = self.state.editor.as_ref()?;
+        let fps = editor.timeline.fps();
+        editor.playing.map(|at| ((at * fps + 1e-6).floor() + 1.0) / fps - at)
+    }
+
+    /// What threads report.
+    #[must_use]
+    pub fn reports(&self) -> &Receiver<Report> {
+        &self.reports.1
+    }
+
+    /// Takes a report.
+    pub fn receive(&mut self, report: Report) {
+        match report {
+            Report::Opened { name, lesson, findings } => {
+                self.under_way -= 1;
+                self.state.busy = None;
+                if let Ok(lesson) = lesson.as_ref()
+                    && lesson.recovered > 0
+                {
+                    let many = if lesson.recovered == 1 { "change" } else { "changes" };
+                    self.state.say(format!("{} unsaved {many} of the last time brought back", lesson.recovered));
+                }
+                self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0 });
+            }
+            Report::Outlined { root, clip, sound, loudest } => {
+                self.under_way -= 1;
+                // The author may have gone to another lesson in the meantime.
+                if self.state.lesson().is_none_or(|l| l.root != root) {
+                    return;
+                }
+                if let Some(clip) = self.state.lesson_mut().and_then(|l| l.clips.get_mut(clip)) {
+                    clip.sound = Some(*sound);
+                }
+                if let Some(editor) = self.state.editor.as_mut().filter(|e| e.clip == clip) {
+                    editor.loudest = Some(loudest);
+                }
+            }
+            Report::Exporting(now) => {
+                if let Some(Overlay::Export { progress, .. }) = self.export() {
+                    *progress = now;
+                }
+            }
+            Report::Exported(done) => {
+                self.under_way -= 1;
+                self.state.overlays.retain(|o| !matches!(o, Overlay::Export { .. }));
+                match done {
+                    Ok(said) => self.state.say(said),
+                    Err(fault) => self.state.say_fault(&fault),
+                }
+            }
+        }
+    }
+
+    /// Waits for everything that is under way, and takes it: for tests and tools, which have no loop.
+    pub fn settle(&mut self) {
+        while self.under_way > 0 {
+            match self.reports.1.recv() {
+                Ok(report) => self.receive(report),
+                Err(_) => return,
+            }
+        }
+    }
+
+    /// Draws the state. The face is painted anew only where its pose or its size has changed.
+    pub fn draw(&mut self, frame: &mut Frame<'_>) {
+        let layout = Layout::of(frame.area(), &self.state);
+        if let (Some(layout), Some(editor)) = (&layout, &self.state.editor) {
+            self.face.show(&editor.figure, &editor.pose(), layout.face, self.state.colours);
+        }
+        draw::screen(frame, &self.state, layout.as_ref(), &self.face);
+    }
+
+    fn export(&mut self) -> Option<&mut Overlay> {
+        self.state.overlays.iter_mut().find(|o| matches!(o, Overlay::Export { .. }))
+    }
+
+    fn start(&mut self, job: Job) {
+        self.under_way += 1;
+        work::start(job, self.reports.0.clone(), Arc::clone(&self.exporter));
+    }
+}

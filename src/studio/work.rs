@@ -1,0 +1,47 @@
+//! Work in threads: opening a lesson, the outline of its sounds, exports. Each reports through one channel.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+
+use crossbeam_channel::Sender;
+
+use super::execute::Job;
+use super::export::Exporter;
+use super::studio::Report;
+use crate::disk::Fault;
+use crate::project::{Lesson, check};
+
+/// Starts a job. Whatever becomes of it, it reports its end.
+pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Exporter>>) {
+    // A report that nobody waits for any more is dropped.
+    thread::spawn(move || {
+        let _ = match job {
+            Job::Open(root) => {
+                let name = root.file_name().map_or_else(|| "lesson".into(), |n| n.to_string_lossy().into_owned());
+                let lesson = catch_unwind(|| (Lesson::open(&root), check(&root)));
+                let (lesson, findings) = lesson.unwrap_or_else(|_| {
+                    (
+                        Err(Fault::new("the lesson cannot be opened").help("please report what `lianpu check` says")),
+                        Vec::new(),
+                    )
+                });
+                reports.send(Report::Opened { name, lesson: Box::new(lesson), findings })
+            }
+            Job::Outline { root, clip, sound } => {
+                // One column over everything builds the whole outline.
+                let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();
+                reports.send(Report::Outlined { root, clip, sound: Box::new(sound), loudest: high.max(-low) })
+            }
+            Job::Export { request, cancel } => {
+                let exporter = exporter.lock().unwrap_or_else(PoisonError::into_inner);
+                let progress = |now| {
+                    let _ = reports.send(Report::Exporting(now));
+                };
+                let done = catch_unwind(AssertUnwindSafe(|| exporter(request, &progress, &cancel)));
+                let broken = || Fault::new("the export broke off").help("what it had written is incomplete: try again");
+                reports.send(Report::Exported(done.unwrap_or_else(|_| Err(broken()))))
+            }
+        };
+    });
+}
