@@ -91,11 +91,12 @@ impl Random {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A log-normal interval, its normal part by the sum of twelve even numbers: close enough within the limits, and
-    /// without the logarithms that differ between mathematics libraries in the last digit.
+    /// A log-normal interval, its normal part by the sum of twelve even numbers, which is close enough within the limits,
+    /// in whole milliseconds, which mathematics libraries that differ in the last digit agree on.
     fn interval(&mut self) -> f64 {
         let normal: f64 = (0..12).map(|_| self.unit()).sum::<f64>() - 6.0;
-        (MEDIAN_INTERVAL * (LOG_SPREAD * normal).exp()).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL)
+        let seconds = MEDIAN_INTERVAL * (LOG_SPREAD * normal).exp();
+        (seconds.clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL) * 1000.0).round() / 1000.0
     }
 }
 
@@ -122,5 +123,7 @@ mod tests {
         let levels: Vec<f64> = (0..1000).map(|i| blink.closed_at(0.9 + f64::from(i) * 0.0005)).collect();
         assert!(levels.iter().all(|l| (0.0..=1.0).contains(l)));
         assert!(levels.contains(&1.0));
+        let falls = levels.windows(2).filter(|w| w[0] == 1.0 && w[1] < 1.0).count();
+        assert_eq!(falls, 1);
     }
 }

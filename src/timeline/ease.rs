@@ -25,7 +25,8 @@ pub(super) struct Curve<const N: usize> {
 
 impl<const N: usize> Curve<N> {
     /// A curve through keys, which are put in order; of two at one time the later given holds.
-    pub(super) fn new(mut keys: Vec<(f64, [f64; N], Ease)>) -> Self {
+    pub(super) fn new(keys: impl IntoIterator<Item = (f64, [f64; N], Ease)>) -> Self {
+        let mut keys: Vec<_> = keys.into_iter().collect();
         keys.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut distinct: Vec<(f64, [f64; N], Ease)> = Vec::with_capacity(keys.len());
         for key in keys {

@@ -18,7 +18,7 @@ pub use mouth::{MouthKey, Origin, Spoken};
 pub use score::{Key, KeyValue, Marker, Range, Score, Track};
 pub use smooth::smooth_keeping_peaks;
 
-use crate::emotion::{Record, Tracks};
+use crate::emotion::{Record, TrackRow, Tracks};
 use crate::pose::{Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
 use ease::Curve;
 
@@ -49,8 +49,8 @@ pub struct Timeline {
     mouth: mouth::MouthTrack,
     ratios: ratios::RatioTrack,
     blinks: Vec<Blink>,
-    gaze: Curve<2>,
-    head: Curve<3>,
+    gaze: Layered<2>,
+    head: Layered<3>,
     lids: Curve<2>,
 }
 
@@ -59,25 +59,22 @@ impl Timeline {
     #[must_use]
     pub fn build(sources: &Sources<'_>) -> Self {
         let score = sources.score;
-        let tracked = |pick: fn(&crate::emotion::TrackRow) -> Vec<f64>| -> Vec<(f64, Vec<f64>)> {
-            sources.tracks.map_or(Vec::new(), |t| t.rows.iter().map(|r| (r.time, pick(r))).collect())
-        };
-        let gaze = author_or_tracked(
-            score.keys.iter().filter_map(|k| match k.value {
+        let gaze = Layered {
+            own: Curve::new(score.keys.iter().filter_map(|k| match k.value {
                 KeyValue::Gaze(g) => Some((k.time, [g.x, g.y], k.ease)),
                 _ => None,
-            }),
-            &tracked(|r| vec![r.gaze.x, r.gaze.y]),
-        );
-        let head = author_or_tracked(
-            score.keys.iter().filter_map(|k| match k.value {
+            })),
+            tracked: tracked(sources.tracks, |r| [r.gaze.x, r.gaze.y]),
+        };
+        let head = Layered {
+            own: Curve::new(score.keys.iter().filter_map(|k| match k.value {
                 KeyValue::Head(h) => Some((k.time, [h.x, h.y, h.roll], k.ease)),
                 _ => None,
-            }),
-            &tracked(|r| vec![r.head.x, r.head.y, r.head.roll]),
-        );
+            })),
+            tracked: tracked(sources.tracks, |r| [r.head.x, r.head.y, r.head.roll]),
+        };
         // A video has the blinks of its speaker, so none are made up.
-        let lids = author_or_tracked(std::iter::empty(), &tracked(|r| vec![r.lids.left, r.lids.right]));
+        let lids = tracked(sources.tracks, |r| [r.lids.left, r.lids.right]);
         let blinks = blink::blinks(score, sources.duration, sources.tracks.is_none());
         Self {
             duration: sources.duration.max(0.0),
@@ -122,8 +119,8 @@ impl Timeline {
         let (mouth, shape) = self.mouth.at(t);
         let closed = self.blinks.iter().map(|b| b.closed_at(t)).fold(0.0, f64::max);
         let [left, right] = self.lids.at(t).unwrap_or([1.0, 1.0]);
-        let [x, y] = self.gaze.at(t).unwrap_or_default();
-        let [head_x, head_y, roll] = self.head.at(t).unwrap_or_default();
+        let [x, y] = self.gaze.at(t);
+        let [head_x, head_y, roll] = self.head.at(t);
         Pose {
             ratios: self.ratios.at(t),
             mouth,
@@ -159,15 +156,25 @@ impl Timeline {
     }
 }
 
-/// A curve through the author's keys where there are any, else through what was tracked.
-fn author_or_tracked<const N: usize>(
-    keys: impl Iterator<Item = (f64, [f64; N], Ease)>,
-    tracked: &[(f64, Vec<f64>)],
-) -> Curve<N> {
-    let keys: Vec<_> = keys.collect();
-    if !keys.is_empty() {
-        return Curve::new(keys);
+/// What a video gave, from row to row.
+fn tracked<const N: usize>(tracks: Option<&Tracks>, pick: fn(&TrackRow) -> [f64; N]) -> Curve<N> {
+    let rows = tracks.map(|t| t.rows.as_slice()).unwrap_or_default();
+    Curve::new(rows.iter().map(|r| (r.time, pick(r), Ease::Linear)))
+}
+
+/// The author's curve over a tracked one.
+#[derive(Debug, Clone)]
+struct Layered<const N: usize> {
+    own: Curve<N>,
+    tracked: Curve<N>,
+}
+
+impl<const N: usize> Layered<N> {
+    /// The author's between her first and last key, else what was tracked, else her nearest key, else rest.
+    fn at(&self, t: f64) -> [f64; N] {
+        let hers = self.own.span().is_some_and(|(from, to)| from <= t && t <= to);
+        let own = || self.own.at(t);
+        let value = if hers { own() } else { self.tracked.at(t).or_else(own) };
+        value.unwrap_or([0.0; N])
     }
-    let fixed = |v: &Vec<f64>| std::array::from_fn(|i| v.get(i).copied().unwrap_or(0.0));
-    Curve::new(tracked.iter().map(|(t, v)| (*t, fixed(v), Ease::Linear)).collect())
 }

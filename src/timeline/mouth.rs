@@ -71,6 +71,11 @@ pub struct MouthKey {
     ease: Ease,
 }
 
+impl MouthKey {
+    const REST: Self =
+        Self { time: 0.0, until: 0.0, shape: None, pose: MouthPose::REST, origin: Origin::Pause, ease: Ease::Smooth };
+}
+
 #[derive(Debug, Clone)]
 pub(super) struct MouthTrack {
     keys: Vec<MouthKey>,
@@ -80,11 +85,9 @@ pub(super) struct MouthTrack {
 
 impl MouthTrack {
     pub(super) fn build(sources: &Sources<'_>) -> Self {
-        let mut keys = match sources.tracks {
-            Some(_) => Vec::new(),
-            None => of_speech(sources.spoken, 1.0 / sources.fps, sources.mouths),
-        };
         let tracked = sources.tracks.is_some();
+        // A video's mouth wins over what speech would do.
+        let mut keys = if tracked { Vec::new() } else { of_speech(sources.spoken, 1.0 / sources.fps, sources.mouths) };
         let mut own = Vec::new();
         for key in sources.score.sorted_keys() {
             if let KeyValue::Mouth(shape) = key.value {
@@ -109,6 +112,9 @@ impl MouthTrack {
         keys.extend(own);
         keys.sort_by(|a, b| a.time.total_cmp(&b.time));
         corners_of_n(&mut keys);
+        if !tracked {
+            rest_around_the_author_s(&mut keys);
+        }
         let mut points = Vec::with_capacity(2 * keys.len());
         for key in &keys {
             points.push((key.time, key.pose.to_array(), if key.until > key.time { Ease::Smooth } else { key.ease }));
@@ -116,18 +122,20 @@ impl MouthTrack {
                 points.push((key.until, key.pose.to_array(), key.ease));
             }
         }
-        if let Some(tracks) = sources.tracks
-            && keys.is_empty()
-        {
-            points = tracks.rows.iter().map(|r| (r.time, of_track(r).to_array(), Ease::Linear)).collect();
+        if let Some(tracks) = sources.tracks {
+            // The author's keys and the way to and from them are hers, the rest is the video's.
+            let hers = |t: f64| keys.iter().any(|k| t > k.time - TRAVEL && t < k.until + TRAVEL);
+            let rows = tracks.rows.iter().filter(|r| !hers(r.time));
+            points.extend(rows.map(|r| (r.time, of_track(r).to_array(), Ease::Linear)));
         }
         Self { keys, curve: Curve::new(points), tracked }
     }
 
     pub(super) fn at(&self, t: f64) -> (MouthPose, Option<MouthShape>) {
         let pose = self.curve.at(t).map_or(MouthPose::REST, MouthPose::from_array);
-        if self.tracked && self.keys.is_empty() {
-            return (pose, None);
+        if self.tracked {
+            let hers = |k: &&MouthKey| t > k.time - TRAVEL && t < k.until + TRAVEL;
+            return (pose, self.keys.iter().find(hers).and_then(|k| k.shape));
         }
         // The shape whose hold is nearest in time.
         let after = self.keys.partition_point(|k| k.time <= t);
@@ -146,7 +154,31 @@ impl MouthTrack {
     }
 }
 
-/// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`).
+/// A key of the author's in a pause is a movement of its own: the mouth leaves rest for it and comes back. Between two
+/// of her keys it goes from one to the other, however far apart they are.
+fn rest_around_the_author_s(keys: &mut Vec<MouthKey>) {
+    let rest = |time: f64, until: f64| MouthKey { time, until, ..MouthKey::REST };
+    let mut all = Vec::with_capacity(keys.len() + 4);
+    for (i, key) in keys.iter().enumerate() {
+        let own = key.origin == Origin::Author && key.shape.is_some();
+        let before = i.checked_sub(1).map(|i| &keys[i]);
+        let after = keys.get(i + 1);
+        let at_rest = |k: &MouthKey| k.origin == Origin::Pause;
+        let leaves = key.time - PREPARE;
+        if own && leaves > before.map_or(0.0, |b| b.until) && before.is_none_or(at_rest) {
+            all.push(rest(leaves, leaves));
+        }
+        all.push(*key);
+        let returns = key.until + RELEASE;
+        if own && after.is_none_or(|a| at_rest(a) && a.time > returns) {
+            all.push(rest(returns, returns));
+        }
+    }
+    *keys = all;
+}
+
+/// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`). The table counts
+/// lips in MNS0 and a pose in M, which are one on most faces; where M is MW0's, a figure opens a little less.
 fn of_track(row: &crate::emotion::TrackRow) -> MouthPose {
     MouthPose {
         upper: -row.mouth.up,
@@ -160,14 +192,7 @@ fn of_track(row: &crate::emotion::TrackRow) -> MouthPose {
 /// The keys of what is said, rest before, between and after.
 fn of_speech(spoken: &[Spoken], frame: f64, preset: MouthPreset) -> Vec<MouthKey> {
     let mut keys: Vec<MouthKey> = Vec::new();
-    let rest = |time: f64, until: f64| MouthKey {
-        time,
-        until,
-        shape: None,
-        pose: MouthPose::REST,
-        origin: Origin::Pause,
-        ease: Ease::Smooth,
-    };
+    let rest = |time: f64, until: f64| MouthKey { time, until, ..MouthKey::REST };
     let said: Vec<(usize, &Spoken)> = spoken.iter().enumerate().filter(|(_, s)| !s.shapes.is_empty()).collect();
     for (place, (number, syllable)) in said.iter().enumerate() {
         let previous = place.checked_sub(1).map(|i| said[i].1);
@@ -190,7 +215,7 @@ fn of_speech(spoken: &[Spoken], frame: f64, preset: MouthPreset) -> Vec<MouthKey
             };
             let slot = leaves - start;
             let travel = TRAVEL.min(0.6 * slot.max(0.0));
-            let last = i + 1 == syllable.shapes.len() && leaves == syllable.end;
+            let last = i + 1 == syllable.shapes.len() && next.is_none_or(|n| n.start - syllable.end > BREATH);
             let until = if shape.closes() {
                 start + CLOSURE.min(0.4 * slot).max(frame)
             } else if last {
@@ -321,6 +346,66 @@ mod tests {
         let line = timeline(&[ba(0.5, 0.3)], 25.0, &score);
         assert_eq!(line.mouth(0.66).1, Some(MouthShape::U));
         assert!(line.mouth(0.66).0.corner_in > 0.2);
+    }
+
+    #[test]
+    fn syllables_that_touch_are_held_like_syllables_that_nearly_do() {
+        let ma = |gap: f64| -> Vec<Spoken> { (0..3).map(|i| ba(0.3 + f64::from(i) * 0.6, 0.6 - gap)).collect() };
+        let (touching, apart) =
+            (timeline(&ma(0.0), 50.0, &Score::default()), timeline(&ma(0.001), 50.0, &Score::default()));
+        for k in 0..100 {
+            let t = f64::from(k) * 0.02;
+            let (a, b) = (touching.mouth(t).0.opening(), apart.mouth(t).0.opening());
+            assert!((a - b).abs() < 0.1, "{a} and {b} at {t}");
+        }
+    }
+
+    #[test]
+    fn a_key_of_the_author_s_in_a_pause_moves_the_mouth_there_and_nowhere_else() {
+        let mut score = Score::default();
+        score.keys.push(Key::new(5.0, KeyValue::Mouth(Some(MouthShape::A))));
+        let line = Timeline::build(&Sources {
+            duration: 20.0,
+            fps: 25.0,
+            spoken: &[],
+            record: None,
+            tracks: None,
+            score: &score,
+            mouths: MouthPreset::Distinct,
+        });
+        assert!(line.mouth(5.0).0.opening() > 1.0);
+        for t in [0.0, 4.5, 5.5, 12.0] {
+            assert_eq!(line.mouth(t).0, MouthPose::REST, "{t}");
+        }
+    }
+
+    #[test]
+    fn a_key_of_the_author_s_leaves_the_tracked_mouth_elsewhere_alone() {
+        let rows = (0..100).map(|frame| crate::emotion::TrackRow {
+            frame,
+            time: f64::from(frame) * 0.04,
+            gaze: crate::pose::Gaze::default(),
+            lids: crate::pose::Lids::default(),
+            mouth: crate::emotion::MouthMoves { down: 0.8, ..crate::emotion::MouthMoves::default() },
+            head: crate::pose::Head::default(),
+            confidence: 1.0,
+        });
+        let tracks = crate::emotion::Tracks { rows: rows.collect() };
+        let mut score = Score::default();
+        score.keys.push(Key::new(1.0, KeyValue::Mouth(Some(MouthShape::M))));
+        let line = Timeline::build(&Sources {
+            duration: 4.0,
+            fps: 25.0,
+            spoken: &[],
+            record: None,
+            tracks: Some(&tracks),
+            score: &score,
+            mouths: MouthPreset::Distinct,
+        });
+        assert_eq!(line.mouth(1.0).0.opening(), 0.0);
+        for t in [0.2, 0.85, 1.2, 3.0] {
+            assert!((line.mouth(t).0.opening() - 0.8).abs() < 1e-6, "{t}");
+        }
     }
 
     #[test]

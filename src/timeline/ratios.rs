@@ -16,7 +16,7 @@ pub(super) struct RatioTrack {
 impl RatioTrack {
     pub(super) fn build(record: Option<&Record>, score: &Score) -> Self {
         let edited = record.map(|r| edit(r, &score.ranges)).unwrap_or_default();
-        let record = Curve::new(edited.into_iter().map(|(t, r)| (t, r.0, super::Ease::Linear)).collect());
+        let record = Curve::new(edited.into_iter().map(|(t, r)| (t, r.0, super::Ease::Linear)));
         let mut spans = Vec::new();
         let mut open = Vec::new();
         for key in score.sorted_keys() {
