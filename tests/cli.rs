@@ -172,12 +172,28 @@ fn wrong_calls_and_wrong_inputs_are_told_apart_and_say_what_to_do() {
 }
 
 #[test]
+fn one_damaged_lesson_does_not_keep_the_others_from_being_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out").display().to_string();
+    let bad = folder.path().join("bad");
+    std::fs::create_dir(&bad).unwrap();
+    std::fs::write(bad.join("lianpu.toml"), "format = 1").unwrap();
+    let (bad, nihao) = (bad.display().to_string(), project("nihao"));
+    fails(&["export", &bad, &nihao, "--to", "svg", "--frames", "0-1", "--out", &out], 1, "1 of 2 projects");
+    assert!(folder.path().join("out/nihao/nihao/000001.svg").is_file());
+    fails(&["export", &nihao, &nihao, "--to", "svg", "--out", &out], 2, "same folder");
+    fails(&["export", &nihao, "--to", "svg", "--jobs", "100000"], 2, "256");
+    fails(&["export", &nihao, "--to", "svg", "--fps", "-1"], 2, "1 to 240");
+}
+
+#[test]
 fn json_lines_can_be_read_by_machines() {
     let folder = tempfile::tempdir().unwrap();
     let printed = export(folder.path(), &["--json", "--frames", "0-9"]);
-    let line: serde_json::Value = serde_json::from_str(printed.trim()).unwrap();
-    assert_eq!(line["frames"], 10);
-    assert_eq!(line["written"], 20);
+    let lines: Vec<serde_json::Value> = printed.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    assert_eq!(lines.len(), 2);
+    assert_eq!(lines[0]["frames"], 10);
+    assert_eq!(lines[1]["written"], 20);
 }
 
 #[test]

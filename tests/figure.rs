@@ -167,12 +167,27 @@ fn the_nine_mouths_of_a_figure_differ_pairwise_in_pixels() {
 #[test]
 fn closed_lids_hide_the_iris_and_a_look_aside_moves_it() {
     let figure = LineFigure::built_in("line").unwrap();
-    let has_iris = |pose: &Pose| format!("{:?}", figure.draw(pose)).contains("\"iris\"");
+    let has_iris = |pose: &Pose| format!("{:?}", figure.draw(pose)).contains("-iris\"");
     let mut pose = Pose::default();
     assert!(has_iris(&pose));
     pose.lids.left = 0.0;
     pose.lids.right = 0.0;
     assert!(!has_iris(&pose));
+}
+
+#[test]
+fn every_id_of_an_svg_is_its_own() {
+    for name in LineFigure::BUILT_IN {
+        let figure = LineFigure::built_in(name).unwrap();
+        for pose in poses() {
+            let svg = lianpu::render::to_svg(&figure.draw(&pose), 640, 360);
+            let mut ids: Vec<&str> = svg.split(" id=\"").skip(1).filter_map(|s| s.split('"').next()).collect();
+            let count = ids.len();
+            ids.sort_unstable();
+            ids.dedup();
+            assert_eq!(ids.len(), count, "{name}");
+        }
+    }
 }
 
 #[test]
@@ -184,6 +199,9 @@ fn a_damaged_figure_says_what_and_where() {
         ("pen = 2.0", "pen = 0.0", "above 0"),
         ("format = 1", "format = 9", "format 1"),
         ("pivot =", "pivott =", "did you mean `pivot`"),
+        ("pivot = [249, 520]", "pivot = [nan, 520]", "numbers up to"),
+        ("upper = [\"lmu\", \"lmulink\", \"rmulink\", \"rmu\"]", "upper = []", "both `upper` and `lower`"),
+        ("name = \"rbow\"", "name = \"r bow\"", "letters, digits"),
     ] {
         let fault = LineFigure::parse(&good.replacen(from, to, 1)).unwrap_err();
         assert!(fault.next_step().contains(word), "{fault}");

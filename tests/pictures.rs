@@ -113,6 +113,18 @@ fn the_cat_looks_as_it_did() {
 }
 
 #[test]
+fn the_figures_hide_what_is_behind_them() {
+    for name in LineFigure::BUILT_IN {
+        let figure = LineFigure::built_in(name).unwrap();
+        let poses: Vec<(String, Pose)> =
+            Emotion::ALL.into_iter().map(|e| (e.to_string(), Pose::of(Ratios::pure(e)))).collect();
+        let mut drawing = sheet(&figure, &poses, 7);
+        drawing.background = Some(Colour::rgb(0x7F, 0xC4, 0xE8));
+        hold(&format!("{name}-on-blue"), &drawing);
+    }
+}
+
+#[test]
 fn our_pixels_are_those_that_resvg_makes_of_our_svg() {
     for name in LineFigure::BUILT_IN {
         let figure = LineFigure::built_in(name).unwrap();

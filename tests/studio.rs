@@ -439,36 +439,3 @@ fn the_player_plays_seeks_and_loops() {
     player.key("Space");
     assert!(player.advance(1.7) && player.frame() == 2, "{}", player.frame());
 }
-
-/// How long keys take in a lesson of an hour: `cargo test --release --test studio -- --ignored --nocapture`.
-#[test]
-#[ignore = "a measurement"]
-fn keys_are_quick_in_a_lesson_of_an_hour() {
-    let dir = tempfile::tempdir().unwrap();
-    let root = dir.path().join("hour");
-    lesson(&root, None, &[]);
-    let clip = root.join("clips/nihao");
-    std::fs::write(clip.join("script.txt"), "今天我們來上課。".repeat(1500)).unwrap();
-    let spec = hound::WavSpec {
-        channels: 1,
-        sample_rate: 16_000,
-        bits_per_sample: 16,
-        sample_format: hound::SampleFormat::Int,
-    };
-    let mut wav = hound::WavWriter::create(clip.join("speech.wav"), spec).unwrap();
-    for i in 0..57_600_000_u32 {
-        wav.write_sample((i.wrapping_mul(2_654_435_761) >> 17) as i16 / 4).unwrap();
-    }
-    wav.finalize().unwrap();
-    let mut studio = Studio::new(State::new(dir.path(), Colours::True).unwrap(), Box::new(|_, _, _| Ok(String::new())));
-    let mut terminal = Terminal::new(TestBackend::new(200, 50)).unwrap();
-    for keys in ["Enter", "Enter", "l", "l", "Tab", "]", "u", "j", "n", "+", "-", "0", "l", "PageDown", "Space"] {
-        let start = std::time::Instant::now();
-        studio.key(keys);
-        let handled = start.elapsed();
-        studio.settle();
-        let settled = start.elapsed();
-        terminal.draw(|frame| studio.draw(frame)).unwrap();
-        println!("{keys:9} handled {handled:>9.1?}, settled {settled:>9.1?}, drawn {:>9.1?}", start.elapsed());
-    }
-}

@@ -1,9 +1,9 @@
 //! `lianpu export`.
 
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -36,13 +36,14 @@ pub struct Args {
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
     /// Threads; as many as there are processors where left out.
-    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
-    jobs: usize,
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true,
+        value_parser = clap::value_parser!(u16).range(0..=256), allow_negative_numbers = true)]
+    jobs: u16,
     /// Width and height in pixels instead of the lesson's.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
     /// Frames a second instead of the lesson's.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     fps: Option<f64>,
     /// #rrggbb, white, black or transparent.
     #[arg(long, value_name = "COLOR")]
@@ -60,7 +61,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 /// Exports every project and prints where the files are.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let request = Request {
-        formats: args.formats.clone(),
+        formats: distinct(&args.formats),
         clip: args.clip.clone(),
         out: args.out.clone(),
         by_project: args.projects.len() > 1,
@@ -69,7 +70,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         size: args.size,
         fps: args.fps,
         background: args.background.map(|c| if c.a == 0 { None } else { Some(c) }),
-        jobs: args.jobs,
+        jobs: args.jobs.into(),
     };
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
@@ -77,52 +78,101 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
         let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
     }
+    check_names(args)?;
+    let mut failed = 0;
     for project in &args.projects {
-        let lesson = Lesson::read(project)?;
-        let jobs = plan(&lesson, &request)?;
-        for clip in &lesson.clips {
-            note_guess(clip, &jobs);
-        }
-        let frames: u32 = jobs.iter().map(|j| j.frames.len() as u32).sum();
-        let bar = progress_bar(frames, args.json);
-        let lines = args.json && frames > 0;
-        let show = |p: Progress| {
-            bar.set_position(u64::from(p.done));
-            // A line a hundredth, so that a log stays readable.
-            if lines && (p.done == p.of || p.done.is_multiple_of((p.of / 100).max(1))) {
-                eprintln!("{}", serde_json::json!({ "done": p.done, "of": p.of }));
+        match one(project, args, &request, &stop, out) {
+            Ok(()) => {}
+            // One damaged lesson must not keep a course from being exported.
+            Err(fault) if args.projects.len() > 1 && !fault.is_of_the_call() && !stop.load(Ordering::Relaxed) => {
+                eprintln!("error: {}: {fault}", project.display());
+                failed += 1;
             }
-        };
-        let report = run_jobs(&jobs, request.jobs, &show, &stop)?;
-        bar.finish_and_clear();
-        if report.stopped {
-            return Err(
-                Fault::new("the export was stopped before its end").help("run it again: it goes on where it stopped")
-            );
-        }
-        for job in &jobs {
-            let place = if job.formats.is_empty() { None } else { Some(job.folder.display().to_string()) };
-            let files = job.texts.iter().map(|(path, _)| path.display().to_string());
-            for path in place.into_iter().chain(files) {
-                let line = if args.json {
-                    serde_json::json!({ "clip": job.clip, "path": path, "frames": job.frames.len(),
-                        "written": report.written, "kept": report.kept, "removed": report.removed,
-                        "bytes": report.bytes })
-                    .to_string()
-                } else {
-                    path
-                };
-                writeln!(out, "{line}").map_err(output_fault)?;
-            }
-        }
-        if !args.json {
-            let removed = match report.removed {
-                0 => String::new(),
-                n => format!(", {n} left over from a longer export removed"),
-            };
-            eprintln!("{} files written, {} already there{removed}", report.written, report.kept);
+            Err(fault) => return Err(fault),
         }
     }
+    match failed {
+        0 => Ok(()),
+        n => Err(Fault::new(format!("{n} of {} projects could not be exported", args.projects.len()))
+            .help("the reasons are above; run it again when they are mended")),
+    }
+}
+
+/// In the order given, each once.
+fn distinct(formats: &[Format]) -> Vec<Format> {
+    let mut all = Vec::new();
+    for format in formats {
+        if !all.contains(format) {
+            all.push(*format);
+        }
+    }
+    all
+}
+
+/// Projects that are exported into one place need names that differ there.
+fn check_names(args: &Args) -> Result<()> {
+    if args.out.is_none() {
+        return Ok(());
+    }
+    let name = |p: &PathBuf| p.canonicalize().ok().and_then(|p| p.file_name().map(|n| n.to_owned()));
+    for (i, project) in args.projects.iter().enumerate() {
+        if let Some(other) = args.projects[..i].iter().find(|o| name(o).is_some() && name(o) == name(project)) {
+            return Err(Fault::new(format!(
+                "`{}` and `{}` would be written into the same folder",
+                other.display(),
+                project.display()
+            ))
+            .help("export them one by one, each with its own --out")
+            .of_the_call());
+        }
+    }
+    Ok(())
+}
+
+fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &mut dyn Write) -> Result<()> {
+    let lesson = Lesson::read(project)?;
+    let jobs = plan(&lesson, request)?;
+    for clip in &lesson.clips {
+        note_guess(clip, &jobs);
+    }
+    let frames: u32 = jobs.iter().map(|j| j.frames.len() as u32).sum();
+    let bar = progress_bar(frames, args.json);
+    let show = |p: Progress| {
+        bar.set_position(u64::from(p.done));
+        // A line a hundredth, so that a log stays readable.
+        if args.json && (p.done == p.of || p.done.is_multiple_of((p.of / 100).max(1))) {
+            eprintln!("{}", serde_json::json!({ "done": p.done, "of": p.of }));
+        }
+    };
+    let report = run_jobs(&jobs, request.jobs, &show, stop)?;
+    bar.finish_and_clear();
+    if report.stopped {
+        return Err(
+            Fault::new("the export was stopped before its end").help("run it again: it goes on where it stopped")
+        );
+    }
+    let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
+    for job in &jobs {
+        let folder = (!job.formats.is_empty()).then(|| (job.folder.clone(), job.frames.len()));
+        let files = job.texts.iter().map(|(path, _)| (path.clone(), 0));
+        for (path, frames) in folder.into_iter().chain(files) {
+            let mut line = serde_json::json!({ "project": project, "clip": job.clip, "path": path });
+            if frames > 0 {
+                line["frames"] = frames.into();
+            }
+            say(if args.json { line.to_string() } else { path.display().to_string() })?;
+        }
+    }
+    if args.json {
+        let totals = serde_json::json!({ "project": project, "written": report.written, "kept": report.kept,
+            "removed": report.removed, "bytes": report.bytes });
+        return say(totals.to_string());
+    }
+    let removed = match report.removed {
+        0 => String::new(),
+        n => format!(", {n} left over from a longer export removed"),
+    };
+    eprintln!("{} files written, {} already there{removed}", report.written, report.kept);
     Ok(())
 }
 

@@ -22,7 +22,7 @@ pub struct Args {
     #[arg(long, value_enum)]
     what: What,
     /// Moments in seconds, with commas between them: for `frame` one, for `faces` as many as you like.
-    #[arg(long, value_name = "TIME", value_delimiter = ',')]
+    #[arg(long, value_name = "TIME", value_delimiter = ',', allow_negative_numbers = true)]
     at: Vec<f64>,
     /// The clip; the first where left out.
     #[arg(long)]

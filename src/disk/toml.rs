@@ -19,9 +19,14 @@ pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T> {
             }
             None if message.starts_with("missing field") => {
                 let key = message.split('`').nth(1).unwrap_or_default();
-                Fault::new(format!("there is no `{key}`")).help(format!("add `{key} = …`"))
+                Fault::new(format!("there is no `{key}`")).help(match key {
+                    // The only value there is so far, so a beginner need not look for it.
+                    "format" => "add `format = 1` at the top".to_owned(),
+                    _ => format!("add `{key} = …`"),
+                })
             }
-            None => Fault::new(message.lines().collect::<Vec<_>>().join("; ")),
+            None => Fault::new(message.lines().collect::<Vec<_>>().join("; ").replace("invalid type: ", "found "))
+                .help(expected(message)),
         };
         match line {
             Some(line) => fault.line(line),
@@ -38,6 +43,17 @@ fn unknown(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
     };
     let (word, rest) = rest.split_once('`')?;
     Some((what, word, rest.split('`').skip(1).step_by(2).collect()))
+}
+
+/// What serde expected, in words for people; its own names of types say nothing to a teacher.
+fn expected(message: &str) -> &'static str {
+    match message.rsplit("expected ").next().unwrap_or_default().trim() {
+        "f64" | "f32" | "a floating point number" => "a number is needed here",
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0 on is needed here, without a point",
+        "a string" => "a text in quotes is needed here",
+        "a boolean" => "true or false is needed here",
+        _ => "see the README for how the file is written",
+    }
 }
 
 /// The known word that is fewest edits from `word`, where that is few enough to be meant.

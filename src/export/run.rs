@@ -65,8 +65,6 @@ pub fn run(jobs: &[Job], threads: usize, progress: &(dyn Fn(Progress) + Sync), s
             report.removed += remove_left_over(job);
         }
         let [width, height] = job.size;
-        // Fails here, once, where the size cannot be painted.
-        Painter::new(width, height)?;
         pool.install(|| {
             job.frames.par_iter().try_for_each_init(
                 || Painter::new(width, height),
@@ -74,8 +72,9 @@ pub fn run(jobs: &[Job], threads: usize, progress: &(dyn Fn(Progress) + Sync), s
                     if stop.load(Ordering::Relaxed) {
                         return Ok(());
                     }
-                    if let Ok(painter) = painter {
-                        write_frame(job, *frame, painter, &tally)?;
+                    match painter {
+                        Ok(painter) => write_frame(job, *frame, painter, &tally)?,
+                        Err(fault) => return Err(Fault::new(fault.what()).help(fault.next_step())),
                     }
                     tally.step(progress);
                     Ok(())

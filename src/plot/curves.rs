@@ -12,7 +12,7 @@ pub type Samples = [(f64, Ratios)];
 const WIDTH: f64 = 1200.0;
 
 /// The seven ratios over time in one chart. A letter stands over
-/// each curve's highest place and at its end, so that no curve is told by colour alone.
+/// each hill of a curve and at its end, so that no curve is told by colour alone.
 #[must_use]
 pub fn ratios(title: &str, samples: &Samples) -> Drawing {
     let (low, high) = bounds(samples.iter().flat_map(|(_, r)| r.0));
@@ -80,18 +80,27 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// The letter of each emotion over the middle of its highest stretch, where it rises enough to be looked for.
+/// The letter of each emotion over each of its hills, where one rises enough to be looked for.
 pub(super) fn peak_letters(axes: &Axes, samples: &Samples) -> Vec<Item> {
-    let letter = |emotion: Emotion| {
-        let most = samples.iter().map(|s| s.1[emotion]).fold(f64::NEG_INFINITY, f64::max);
-        let first = samples.iter().position(|s| s.1[emotion] >= most - 1e-3)?;
-        let length = samples[first..].iter().take_while(|s| s.1[emotion] >= most - 1e-3).count();
-        let time = samples.get(first + length / 2)?.0;
-        let at = Point::new(axes.x(time), axes.y(most) - 6.0);
-        let text = emotion.letter().to_string();
-        (most > 0.08).then(|| Item::text(at, TEXT + 1.0, Anchor::Middle, colour_of(emotion), text))
-    };
-    Emotion::ALL.into_iter().filter_map(letter).collect()
+    let mut items = Vec::new();
+    for emotion in Emotion::ALL {
+        let mut start = 0;
+        while start < samples.len() {
+            let level = samples[start].1[emotion];
+            let length = samples[start..].iter().take_while(|s| (s.1[emotion] - level).abs() < 1e-3).count();
+            let lower = |i: Option<usize>| i.and_then(|i| samples.get(i)).is_none_or(|s| s.1[emotion] < level);
+            let is_hill = lower(start.checked_sub(1)) && lower(Some(start + length));
+            // Clear of the axis's name in the corner.
+            let middle = axes.x(samples[start + length / 2].0).max(axes.area.x0 + 4.0 * TEXT);
+            if is_hill && level > 0.08 {
+                let at = Point::new(middle, axes.y(level) - 6.0);
+                let letter = emotion.letter().to_string();
+                items.push(Item::text(at, TEXT + 1.0, Anchor::Middle, colour_of(emotion), letter));
+            }
+            start += length;
+        }
+    }
+    items
 }
 
 /// Name and letter of each curve at its right end, moved apart where ends are close.

@@ -161,8 +161,7 @@ impl Edit {
                 if !(key.time.is_finite() && key.time >= 0.0) {
                     return Err(Fault::new(format!("a key cannot be at {} s", key.time)).help("give a time from 0 on"));
                 }
-                clip_of(clips, *clip)?.score.keys.push(*key);
-                Ok(())
+                add(&mut clip_of(clips, *clip)?.score.keys, key)
             }
             Self::RemoveKey { clip, key } => remove(&mut clip_of(clips, *clip)?.score.keys, key),
             Self::AddRange { clip, at, range } => {
@@ -181,10 +180,7 @@ impl Edit {
                 ranges.remove(*at);
                 Ok(())
             }
-            Self::AddMarker { clip, marker } => {
-                clip_of(clips, *clip)?.score.markers.push(marker.clone());
-                Ok(())
-            }
+            Self::AddMarker { clip, marker } => add(&mut clip_of(clips, *clip)?.score.markers, marker),
             Self::RemoveMarker { clip, marker } => remove(&mut clip_of(clips, *clip)?.score.markers, marker),
         }
     }
@@ -196,6 +192,15 @@ fn clip_of(clips: &mut [Clip], clip: usize) -> Result<&mut Clip> {
 
 fn stale() -> Fault {
     Fault::new("the change does not fit the lesson as it is now").help("the files were changed by other means")
+}
+
+/// Adds what is not there: the same thing twice would be one change made twice, as by a journal read again.
+fn add<T: PartialEq + Clone>(list: &mut Vec<T>, item: &T) -> Result<()> {
+    if list.contains(item) {
+        return Err(Fault::new("it is there already").help("move or change the one that is there"));
+    }
+    list.push(item.clone());
+    Ok(())
 }
 
 fn remove<T: PartialEq>(list: &mut Vec<T>, item: &T) -> Result<()> {

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use super::{Clip, Lesson, MANIFEST, Manifest};
+use super::lesson::figure_of_face;
+use super::{Clip, MANIFEST, Manifest};
 use crate::disk::Fault;
+use crate::script::Lang;
 use crate::timeline::KeyValue;
 
 /// One thing that a check found.
@@ -42,21 +44,15 @@ pub fn check(root: &Path) -> Vec<Finding> {
             Err(fault) => found.push(Finding::Wrong(fault)),
         }
     }
-    // Figures are found through a lesson that has no damaged clips in the way.
-    let bare = Lesson {
-        root: root.to_owned(),
-        clips: Vec::new(),
-        read_only: None,
-        recovered: 0,
-        history: super::History::default(),
-        journal: None,
-        lock: None,
-        manifest,
-    };
-    for face in &bare.manifest.faces {
-        let of = bare.manifest.clips.iter().find(|c| bare.manifest.face_of(c) == Some(face));
-        if let Some(Err(fault)) = of.map(|clip| bare.figure_of(clip)) {
+    for face in &manifest.faces {
+        if let Err(fault) = figure_of_face(root, Some(face)) {
             found.push(Finding::Wrong(fault));
+        }
+        if let Some(style) = &face.style {
+            found.push(Finding::Odd(format!(
+                "face {}: line figures have no styles, `{style}` changes nothing",
+                face.name
+            )));
         }
     }
     found
@@ -73,7 +69,7 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
         parts.push(counted(clip.syllables.len(), "syllable"));
     }
     if let Some(record) = &clip.record {
-        parts.push(counted(record.rows.len(), "row of ratios").replace("row of ratioss", "rows of ratios"));
+        parts.push(format!("{} of ratios", counted(record.rows.len(), "row")));
     }
     let keys = clip.score.keys.len();
     if keys > 0 {
@@ -86,6 +82,16 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     }
     if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
         found.push(odd("there is sound and no script, so the mouth stays shut".into()));
+    }
+    if clip.timing.tier("shapes").is_some() && !clip.syllables.is_empty() {
+        found.push(odd("its tier `shapes` moves the mouth; syllables' times and readings do not".into()));
+    }
+    let unread = clip.syllables.iter().filter(|s| s.lang == Lang::Zh && s.pinyin.is_empty()).count();
+    if unread > 0 {
+        found.push(odd(format!("{} without a known reading: write it as 字{{zi4}}", counted(unread, "character"))));
+    }
+    if let Some(pin) = clip.score.pins.iter().find(|p| **p >= clip.syllables.len()) {
+        found.push(odd(format!("`pins` names syllable {pin}, and there are {}", clip.syllables.len())));
     }
     found.extend(clip.warnings.iter().map(|w| odd(w.clone())));
     let end = clip.duration();

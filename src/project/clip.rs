@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::manifest::ClipEntry;
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
-use crate::pose::MouthPreset;
+use crate::pose::{MouthPreset, MouthShape};
 use crate::script::{self, OnsetPreset, Reading, Syllable, System};
 use crate::speech::Sound;
 use crate::timeline::{Score, Sources, Spoken, Timeline};
@@ -71,7 +71,7 @@ impl Clip {
             syllables: Vec::new(),
             timing: Timing::default(),
             sound: None,
-            sound_path: sound_file(&folder)?,
+            sound_path: sound_file(root, &folder)?,
             record: None,
             tracks: None,
             score: Score::default(),
@@ -128,6 +128,13 @@ impl Clip {
             self.plain = script::syllables(&self.script, self.entry.script_system.unwrap_or(System::Auto))?;
         }
         timing::match_labels(&self.plain, tier, label_fits, |s| s.text.clone())?;
+        if let Some(wrong) = timing.tier("shapes").and_then(|t| t.spoken().find(|i| shape_of(&i.label).is_none())) {
+            return Err(Fault::new(format!(
+                "`{}` at {:.3} s in the tier `shapes` is no mouth shape",
+                wrong.label, wrong.start
+            ))
+            .help("shapes: m f h a i u e o n, and h' for h"));
+        }
         let mut syllables = Tier::new("syllables");
         syllables.intervals = tier.spoken().cloned().collect();
         // The only tier of a file may have any name; here it has its own.
@@ -208,27 +215,40 @@ impl Clip {
     }
 }
 
+/// What recordings are called at their end. Only WAV is read so far; the others are named when they are found.
+const SOUNDS: [&str; 7] = ["wav", "wave", "mp3", "ogg", "flac", "m4a", "opus"];
+
 /// `speech.*` in a clip's folder.
-fn sound_file(folder: &Path) -> Result<Option<PathBuf>> {
+fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
     let entries = std::fs::read_dir(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
-    let mut found: Vec<PathBuf> = entries
-        .flatten()
-        .map(|e| e.path())
-        .filter(|p| p.file_stem().is_some_and(|s| s == "speech") && p.is_file())
-        .collect();
+    let is_sound = |p: &PathBuf| {
+        let extension = p.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+        p.file_stem().is_some_and(|s| s == "speech") && SOUNDS.contains(&extension.as_str()) && p.is_file()
+    };
+    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(is_sound).collect();
     found.sort();
-    match found.as_slice() {
-        [] => Ok(None),
-        [one] => Ok(Some(one.clone())),
-        _ => Err(Fault::new("there are several recordings").at(folder).help("keep one file called speech.*")),
+    let names: Vec<String> =
+        found.iter().filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned())).collect();
+    match (found.as_slice(), names.as_slice()) {
+        ([], _) => Ok(None),
+        ([one], [name]) => {
+            let clip = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+            inside(root, &format!("clips/{clip}/{name}"))?;
+            Ok(Some(one.clone()))
+        }
+        _ => Err(Fault::new(format!("there are several recordings: {}", names.join(", ")))
+            .at(folder)
+            .help("keep one of them")),
     }
 }
 
 /// Whether a tier's label can stand for a syllable: the same text, or a reading that it can have.
 fn label_fits(syllable: &Syllable, label: &str) -> bool {
     let label = label.trim();
+    if let Some(forced) = forced_in(label) {
+        return label_text(label) == syllable.text && script::reading(forced, System::Auto).is_some();
+    }
     label.eq_ignore_ascii_case(&syllable.text)
-        || label_text(label) == syllable.text
         || script::readings(label, System::Auto).iter().any(|reading| can_have(syllable, reading))
 }
 
@@ -247,11 +267,16 @@ fn label_text(label: &str) -> &str {
     label.split('{').next().unwrap_or(label).trim()
 }
 
+/// The reading in the braces of `行{hang2}`.
+fn forced_in(label: &str) -> Option<&str> {
+    label.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}'))
+}
+
 /// The reading that a label gives beyond its character: of `行{hang2}` or of `hang2`. A bare sound without its tone
 /// says nothing new about a syllable that has that sound.
 fn label_reading(syllable: &Syllable, label: &str) -> Option<Reading> {
     let label = label.trim();
-    if let Some(forced) = label.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}')) {
+    if let Some(forced) = forced_in(label) {
         return script::reading(forced, System::Auto);
     }
     if label.eq_ignore_ascii_case(&syllable.text) {
@@ -260,6 +285,12 @@ fn label_reading(syllable: &Syllable, label: &str) -> Option<Reading> {
     let reading = script::readings(label, System::Auto).into_iter().find(|r| can_have(syllable, r))?;
     let says_less = reading.tone().is_none() && syllable.sound() == Some(reading.sound());
     (!says_less).then_some(reading)
+}
+
+/// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).
+fn shape_of(label: &str) -> Option<MouthShape> {
+    let label = label.trim();
+    label.strip_suffix(['\'', '’']).unwrap_or(label).parse().ok()
 }
 
 /// Mouth shapes with times of their own: touching ones are one utterance.
@@ -276,7 +307,7 @@ fn of_shapes(tier: &Tier) -> Vec<Spoken> {
         .filter_map(|run| {
             let (start, end) = (run.first()?.start, run.last()?.end);
             let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
-            let shapes = run.iter().filter_map(|i| i.label.trim().parse().ok().map(|s| (share(i.start), s))).collect();
+            let shapes = run.iter().filter_map(|i| shape_of(&i.label).map(|s| (share(i.start), s))).collect();
             Some(Spoken { start, end, shapes })
         })
         .collect()

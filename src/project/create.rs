@@ -7,6 +7,7 @@ use super::Lesson;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::Record;
+use crate::figure::LineFigure;
 use crate::script::System;
 use crate::timing::{self, Format};
 
@@ -37,8 +38,12 @@ pub struct NewLesson {
 /// # Errors
 /// When the folder is taken, or an input cannot be used; then nothing is left behind.
 pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
-    let name = root.file_name().and_then(|n| n.to_str()).unwrap_or_default().to_owned();
-    plain_name(&name).map_err(|f| f.of_the_call())?;
+    let Some(name) = root.file_name().and_then(|n| n.to_str()).map(str::to_owned) else {
+        return Err(Fault::new(format!("`{}` does not end in a name for the lesson", root.display()))
+            .help("give the folder to make, such as lessons/nihao")
+            .of_the_call());
+    };
+    plain_name(&name).map_err(Fault::of_the_call)?;
     let taken = root.symlink_metadata().is_ok() && std::fs::read_dir(root).map_or(true, |mut d| d.next().is_some());
     if taken {
         return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
@@ -57,6 +62,9 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    let figure = new.figure.as_deref().unwrap_or("line");
+    LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
+    check_inputs(new)?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")
@@ -70,10 +78,14 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
         take_of: None,
     };
     fill(draft.path(), &clip, new)?;
-    let figure = new.figure.clone().or(Some("line".into()));
     let manifest = Manifest {
         title: clean_line(new.title.as_deref().unwrap_or(&name), 200),
-        faces: vec![FaceEntry { name: "teacher".into(), figure, style: None, mouths: Default::default() }],
+        faces: vec![FaceEntry {
+            name: "teacher".into(),
+            figure: Some(figure.into()),
+            style: None,
+            mouths: Default::default(),
+        }],
         clips: vec![clip],
         output: Output::default(),
     };
@@ -82,7 +94,13 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
     // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
     // files, not the draft's.
     let lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(&f, new))?;
-    lesson.figure_of(&lesson.manifest.clips[0]).map_err(|f| Fault::new(f.what()).help(f.next_step()).of_the_call())?;
+    if lesson.clips.iter().any(|c| c.sound.is_some() && c.syllables.is_empty()) {
+        let fault = Fault::new("there is nothing to say in the script").help("write what is said in the recording");
+        return Err(match &new.script {
+            Some(path) => fault.at(path),
+            None => fault,
+        });
+    }
     drop(lesson);
     if root.exists() {
         std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
@@ -96,14 +114,29 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
     Lesson::read(root)
 }
 
+/// Reads every input where it is, before a folder is made, so that a fault names the author's file and nothing is left.
+fn check_inputs(new: &NewLesson) -> Result<()> {
+    if let Some(path) = &new.speech {
+        crate::speech::Sound::read(path)?;
+    }
+    if let Some(path) = &new.script {
+        crate::script::syllables(&read_text(path)?, new.system.unwrap_or(System::Auto)).map_err(|f| f.at(path))?;
+    }
+    if let Some(path) = &new.timing {
+        timing::read(path)?;
+    }
+    if let Some(path) = &new.ratios {
+        Record::parse(&read_text(path)?).map_err(|f| f.at(path))?;
+    }
+    Ok(())
+}
+
 fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
     let folder = root.join("clips").join(&clip.name);
     std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
     if let Some(path) = &new.speech {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("wav").to_ascii_lowercase();
         write_whole(&folder.join(format!("speech.{extension}")), &read_bytes(path, MAX_SOUND_BYTES)?)?;
-        // Read where it is, so that a fault names the author's file.
-        crate::speech::Sound::read(path)?;
     }
     if let Some(path) = &new.script {
         write_whole(&folder.join("script.txt"), read_text(path)?.as_bytes())?;
@@ -113,9 +146,7 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
         write_whole(&folder.join("timing.TextGrid"), timing::write(&timing, Format::TextGrid).as_bytes())?;
     }
     if let Some(path) = &new.ratios {
-        let text = read_text(path)?;
-        Record::parse(&text).map_err(|f| f.at(path))?;
-        write_whole(&folder.join("ratios.csv"), text.as_bytes())?;
+        write_whole(&folder.join("ratios.csv"), read_text(path)?.as_bytes())?;
     }
     Ok(())
 }

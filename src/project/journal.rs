@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 
 use super::Change;
-use crate::disk::{Fault, MAX_TEXT_BYTES, Result, read_bytes};
+use crate::disk::{Fault, MAX_TEXT_BYTES, Result, read_bytes, write_whole};
 
 #[derive(Debug)]
 pub(super) struct Journal {
@@ -14,29 +14,28 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal and reads what an earlier run left in it. A last line that was cut off is dropped.
-    pub(super) fn open(path: &Path) -> Result<(Self, Vec<Change>)> {
-        let unsaved = match path.is_file() {
-            true => read_bytes(path, MAX_TEXT_BYTES)?
-                .split(|b| *b == b'\n')
-                .map_while(|line| serde_json::from_slice(line).ok())
-                .collect(),
-            false => Vec::new(),
-        };
-        let file = OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(path)
-            .map_err(|e| Fault::io("cannot open the journal", path, e))?;
-        Ok((Self { file, path: path.to_owned() }, unsaved))
+    /// What an earlier run left unsaved. A last line that was cut off is dropped.
+    pub(super) fn left_in(path: &Path) -> Result<Vec<Change>> {
+        if !path.is_file() {
+            return Ok(Vec::new());
+        }
+        let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
+        Ok(bytes.split(|b| *b == b'\n').map_while(|line| serde_json::from_slice(line).ok()).collect())
+    }
+
+    /// Starts the journal with the changes that hold, so that what is noted next follows them and nothing else.
+    pub(super) fn start(path: &Path, holding: &[Change]) -> Result<Self> {
+        let text: String = holding.iter().map(line_of).collect();
+        write_whole(path, text.as_bytes())?;
+        let file =
+            OpenOptions::new().append(true).open(path).map_err(|e| Fault::io("cannot open the journal", path, e))?;
+        Ok(Self { file, path: path.to_owned() })
     }
 
     /// Notes a change that was made.
     pub(super) fn note(&mut self, change: &Change) -> Result<()> {
-        let mut line = serde_json::to_vec(change).unwrap_or_default();
-        line.push(b'\n');
         self.file
-            .write_all(&line)
+            .write_all(line_of(change).as_bytes())
             .and_then(|()| self.file.sync_data())
             .map_err(|e| Fault::io("cannot write the journal", &self.path, e))
     }
@@ -45,4 +44,9 @@ impl Journal {
     pub(super) fn clear(&mut self) -> Result<()> {
         self.file.set_len(0).map_err(|e| Fault::io("cannot empty the journal", &self.path, e))
     }
+}
+
+fn line_of(change: &Change) -> String {
+    // Only maps with odd keys and numbers that are none can fail to be JSON, and a change has neither.
+    serde_json::to_string(change).unwrap_or_default() + "\n"
 }

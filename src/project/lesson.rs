@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::history::History;
 use super::journal::Journal;
-use super::manifest::{ClipEntry, MANIFEST, Manifest};
+use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest};
 use super::{Change, Clip};
 use crate::disk::{Fault, Lock, Result, inside, nearest, read_text};
 use crate::figure::LineFigure;
@@ -69,16 +69,17 @@ impl Lesson {
             Err(_) => lesson.read_only = Some("its folder cannot be written to".into()),
         }
         if lesson.read_only.is_none() {
-            let (journal, unsaved) = Journal::open(&own.join("journal"))?;
-            for change in unsaved {
-                // A change that no longer fits was made to files that have since been changed by other means.
+            let path = own.join("journal");
+            for change in Journal::left_in(&path)? {
+                // A change that does not fit was made to files that have since been changed, or is in them already:
+                // a save that was cut off after writing leaves such a journal.
                 if lesson.apply(&change).is_err() {
                     break;
                 }
                 lesson.history.push(change);
                 lesson.recovered += 1;
             }
-            lesson.journal = Some(journal);
+            lesson.journal = Some(Journal::start(&path, lesson.history.done())?);
         }
         Ok(lesson)
     }
@@ -92,10 +93,7 @@ impl Lesson {
             return Err(Fault::new(format!("the lesson cannot be changed: {why}"))
                 .help("copy the folder to a place of yours and open the copy"));
         }
-        self.apply(&change)?;
-        if let Some(journal) = &mut self.journal {
-            journal.note(&change)?;
-        }
+        self.make(&change)?;
         self.history.push(change);
         Ok(())
     }
@@ -103,27 +101,34 @@ impl Lesson {
     /// Takes the last change back; its label, or none where there is none.
     ///
     /// # Errors
-    /// When the journal cannot be written.
+    /// When the journal cannot be written; then nothing has changed.
     pub fn undo(&mut self) -> Result<Option<String>> {
-        let Some(change) = self.history.step_back() else { return Ok(None) };
-        self.retrace(&change.inverse(), &change.label)
+        let Some(change) = self.history.done().last().cloned() else { return Ok(None) };
+        self.make(&change.inverse())?;
+        self.history.step_back();
+        Ok(Some(change.label))
     }
 
     /// Makes the change that was last taken back again.
     ///
     /// # Errors
-    /// When the journal cannot be written.
+    /// When the journal cannot be written; then nothing has changed.
     pub fn redo(&mut self) -> Result<Option<String>> {
-        let Some(change) = self.history.step_on() else { return Ok(None) };
-        self.retrace(&change, &change.label.clone())
+        let Some(change) = self.history.undone().last().cloned() else { return Ok(None) };
+        self.make(&change)?;
+        self.history.step_on();
+        Ok(Some(change.label))
     }
 
-    fn retrace(&mut self, change: &Change, label: &str) -> Result<Option<String>> {
+    /// Applies a change and notes it in the journal: both or neither.
+    fn make(&mut self, change: &Change) -> Result<()> {
         self.apply(change)?;
-        if let Some(journal) = &mut self.journal {
-            journal.note(change)?;
+        let noted = self.journal.as_mut().map_or(Ok(()), |journal| journal.note(change));
+        if noted.is_err() {
+            // The inverse of what was just applied fits.
+            let _ = self.apply(&change.inverse());
         }
-        Ok(Some(label.to_owned()))
+        noted
     }
 
     /// Whether there are changes that are not in the files.
@@ -153,10 +158,10 @@ impl Lesson {
         Ok(())
     }
 
-    /// The number of the clip of that name, or of the only one.
+    /// The number of the clip of that name, or of the first one where none is named.
     ///
     /// # Errors
-    /// When there is none of that name, with the names there are; or when there are several and none was named.
+    /// When there is none of that name, with the names there are; or when the lesson has no clips.
     pub fn clip_named(&self, name: Option<&str>) -> Result<usize> {
         let known: Vec<&str> = self.clips.iter().map(|c| c.entry.name.as_str()).collect();
         match name {
@@ -191,17 +196,38 @@ impl Lesson {
     /// # Errors
     /// When the manifest names one that does not exist or is damaged.
     pub fn figure_of(&self, clip: &ClipEntry) -> Result<LineFigure> {
-        let named = self.manifest.face_of(clip).and_then(|f| f.figure.as_deref()).unwrap_or("line");
-        match named.strip_prefix("figures/") {
-            Some(_) => {
-                let path = inside(&self.root, named).map_err(|f| f.at(self.root.join(MANIFEST)))?;
-                LineFigure::parse(&read_text(&path)?).map_err(|f| f.at(&path))
-            }
-            None if named == "cartoon" => Err(Fault::new("the figure `cartoon` cannot be drawn yet")
-                .at(self.root.join(MANIFEST))
-                .help("this version draws line figures: write figure = \"line\"")),
-            None => LineFigure::built_in(named).map_err(|f| f.at(self.root.join(MANIFEST))),
+        figure_of_face(&self.root, self.manifest.face_of(clip))
+    }
+}
+
+/// The figure of a face; the line face where there is no face, or it names none.
+pub(super) fn figure_of_face(root: &Path, face: Option<&FaceEntry>) -> Result<LineFigure> {
+    let named = face.and_then(|f| f.figure.as_deref()).unwrap_or("line");
+    let in_manifest = |fault: Fault| {
+        let line = std::fs::read_to_string(root.join(MANIFEST))
+            .ok()
+            .and_then(|text| text.lines().position(|l| l.contains("figure") && l.contains(named)));
+        let fault = fault.at(root.join(MANIFEST));
+        match line {
+            Some(line) => fault.line(line + 1),
+            None => fault,
         }
+    };
+    match named.strip_prefix("figures/") {
+        Some(_) => {
+            let path = inside(root, named).map_err(in_manifest)?;
+            if !path.is_file() {
+                return Err(in_manifest(
+                    Fault::new(format!("there is no file `{named}` in the lesson"))
+                        .help("put the figure there, or write figure = \"line\""),
+                ));
+            }
+            LineFigure::parse(&read_text(&path)?).map_err(|f| f.at(&path))
+        }
+        None if named == "cartoon" => Err(in_manifest(
+            Fault::new("the figure `cartoon` cannot be drawn by this version").help("write figure = \"line\""),
+        )),
+        None => LineFigure::built_in(named).map_err(in_manifest),
     }
 }
 

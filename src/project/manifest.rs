@@ -158,8 +158,9 @@ impl Manifest {
             clips.push(clip);
         }
         for clip in &clips {
-            if let Some(take) = clip.take_of.as_ref().filter(|t| clips.iter().all(|c| c.name != **t)) {
-                return Err(Fault::new(format!("`{}` is a take of `{take}`, which is no clip here", clip.name))
+            let is_other = |take: &String| clips.iter().any(|c| c.name == *take && c.name != clip.name);
+            if let Some(take) = clip.take_of.as_ref().filter(|take| !is_other(take)) {
+                return Err(Fault::new(format!("`{}` is a take of `{take}`, which is no other clip here", clip.name))
                     .help(format!("clips: {}", names(clips.iter().map(|c| &c.name)))));
             }
         }

@@ -45,8 +45,9 @@ impl Lesson {
 impl Clip {
     fn save(&mut self) -> Result<Vec<PathBuf>> {
         let mut written = Vec::new();
-        // Times that are still guesses are not written as if they were known until one of them was set by hand.
-        if !self.timing.guessed || !self.score.pins.is_empty() {
+        // Guesses are made anew from the sound, so they are not written until something of the tier was set by hand.
+        let labels_set = self.intervals().iter().zip(&self.syllables).any(|(i, s)| i.label != s.text);
+        if !self.timing.guessed || !self.score.pins.is_empty() || labels_set {
             self.score.guessed = self.timing.guessed && self.score.pins.len() < self.syllables.len();
             if !self.intervals().is_empty() {
                 let text = timing::write(&self.timing, Format::TextGrid);

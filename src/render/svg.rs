@@ -15,14 +15,14 @@ pub fn to_svg(drawing: &Drawing, width: u32, height: u32) -> String {
     let _ = writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"{} {} {} {}\" \
-         role=\"img\" aria-labelledby=\"title desc\">",
+         role=\"img\" aria-labelledby=\"picture-title picture-description\">",
         Short(v.x0),
         Short(v.y0),
         Short(v.width()),
         Short(v.height())
     );
-    let _ = writeln!(out, "<title id=\"title\">{}</title>", Escaped(&drawing.title));
-    let _ = writeln!(out, "<desc id=\"desc\">{}</desc>", Escaped(&drawing.description));
+    let _ = writeln!(out, "<title id=\"picture-title\">{}</title>", Escaped(&drawing.title));
+    let _ = writeln!(out, "<desc id=\"picture-description\">{}</desc>", Escaped(&drawing.description));
     if let Some(colour) = drawing.background {
         // Beyond the view box too, which is fitted whole and leaves margins where the proportions differ.
         let scale = (f64::from(width) / v.width()).min(f64::from(height) / v.height());
@@ -30,7 +30,7 @@ pub fn to_svg(drawing: &Drawing, width: u32, height: u32) -> String {
         let corner = v.center() - crate::geometry::Vec2::new(w / 2.0, h / 2.0);
         let _ = writeln!(
             out,
-            "<rect id=\"background\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>",
+            "<rect id=\"picture-background\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>",
             Short(corner.x),
             Short(corner.y),
             Short(w),
@@ -74,8 +74,8 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
             let mut clip = String::new();
             if let Some(path) = &group.clip {
                 *clips += 1;
-                let _ = write!(clip, " clip-path=\"url(#clip{clips})\"");
-                let _ = writeln!(out, "<clipPath id=\"clip{clips}\"><path d=\"{}\"/></clipPath>", data(path));
+                let _ = write!(clip, " clip-path=\"url(#picture-clip-{clips})\"");
+                let _ = writeln!(out, "<clipPath id=\"picture-clip-{clips}\"><path d=\"{}\"/></clipPath>", data(path));
             }
             let id = if group.name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(&group.name)) };
             let _ = writeln!(out, "<g{id}{clip}{}>", transform(group.transform));

@@ -19,6 +19,9 @@ const MAX_SECONDS: u64 = 4 * 3600;
 /// Lengths from here on are not lengths: programs that write to a pipe, or crash, leave such numbers behind.
 const UNFINISHED: u64 = 0x7FFF_0000;
 
+/// Samples a second that are read: from the poorest telephone to the finest studio. Others are damaged headers.
+const RATES: std::ops::RangeInclusive<u32> = 1_000..=768_000;
+
 const CONVERT: &str = "save it as WAV, 16 bits, and try again";
 
 /// Reads a file; faults come without its path.
@@ -159,8 +162,8 @@ impl Form {
         let tag = if number(0) == 0xFFFE && bytes.len() >= 26 { number(24) } else { number(0) };
         let (channels, bits, align) = (number(2), number(14), number(12));
         let rate = u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]);
-        if channels == 0 || rate == 0 {
-            let what = if rate == 0 { "0 samples a second" } else { "0 channels" };
+        if channels == 0 || !RATES.contains(&rate) {
+            let what = if channels == 0 { "0 channels".to_owned() } else { format!("{rate} samples a second") };
             return Err(Fault::new(format!("the file says that it has {what}")).help(CONVERT));
         }
         let container = if align >= channels && align % channels == 0 { align / channels } else { bits.div_ceil(8) };

@@ -171,6 +171,10 @@ impl Score {
     pub fn parse(text: &str) -> Result<Self> {
         let file: File = from_toml(text)?;
         let line_of = |span: std::ops::Range<usize>| 1 + text[..span.start.min(text.len())].matches('\n').count();
+        // TOML's integers end there, so a larger seed could be read and not written.
+        if i64::try_from(file.seed).is_err() {
+            return Err(Fault::new(format!("`seed` is {}", file.seed)).help(format!("give at most {}", i64::MAX)));
+        }
         let mut score = Self { seed: file.seed, auto_blink: file.auto_blink, pins: file.pins, ..Self::default() };
         score.pins.sort_unstable();
         score.pins.dedup();
@@ -184,7 +188,9 @@ impl Score {
             score.ranges.push(range.into_inner().read().map_err(|f| f.line(line))?);
         }
         for marker in file.markers {
-            checked_time(marker.time, "time")?;
+            let line = line_of(marker.span());
+            let marker = marker.into_inner();
+            checked_time(marker.time, "time").map_err(|f| f.line(line))?;
             score.markers.push(Marker { time: marker.time, text: crate::disk::clean_line(&marker.text, 200) });
         }
         Ok(score)
@@ -256,7 +262,7 @@ struct File {
     #[serde(default, rename = "range")]
     ranges: Vec<toml::Spanned<FileRange>>,
     #[serde(default, rename = "marker")]
-    markers: Vec<Marker>,
+    markers: Vec<toml::Spanned<Marker>>,
 }
 
 fn one() -> u64 {
@@ -313,15 +319,17 @@ impl FileKey {
             }
             (Track::Blink, None) => KeyValue::Blink(BLINK_SECONDS),
             (Track::Blink, Some(v)) => match number(v) {
-                Some(length) if (0.0..=5.0).contains(&length) => KeyValue::Blink(length),
-                _ => return Err(wrong(v, "a blink's length in seconds, 0 to 5")),
+                Some(length) if (0.05..=5.0).contains(&length) => KeyValue::Blink(length),
+                _ => return Err(wrong(v, "a blink's length in seconds, 0.05 to 5")),
             },
             (Track::Gaze, Some(v)) => {
-                let [x, y] = numbers(v).ok_or_else(|| wrong(v, "[x, y] in eye heights, each at most 10"))?;
+                let [x, y] = numbers(v, [10.0; 2]).ok_or_else(|| wrong(v, "[x, y] in eye heights, each at most 10"))?;
                 KeyValue::Gaze(Gaze { x, y })
             }
             (Track::Head, Some(v)) => {
-                let [x, y, roll] = numbers(v).ok_or_else(|| wrong(v, "[x, y, roll] in pupil distances and degrees"))?;
+                let [x, y, roll] = numbers(v, [10.0, 10.0, 180.0]).ok_or_else(|| {
+                    wrong(v, "[x, y, roll] in pupil distances, each at most 10, and degrees, at most 180")
+                })?;
                 KeyValue::Head(Head { x, y, roll })
             }
             (track, Some(v)) => {
@@ -335,6 +343,14 @@ impl FileKey {
         };
         if let Some(time) = self.replaces {
             checked_time(time, "replaces")?;
+        }
+        for (given, name, track) in
+            [(self.ends, "ends", Track::Emotion), (self.replaces.is_some(), "replaces", Track::Mouth)]
+        {
+            if given && self.track != track {
+                return Err(Fault::new(format!("`{name}` is given on the track `{}`", name_of(self.track)))
+                    .help(format!("only keys of the track `{}` can have it", name_of(track))));
+            }
         }
         Ok(Key { time: self.time, value, ease: self.ease, ends: self.ends, replaces: self.replaces })
     }
@@ -351,6 +367,10 @@ impl FileRange {
         }
         if !(0.0..=10.0).contains(&self.smooth) {
             return Err(Fault::new(format!("`smooth` is {}", self.smooth)).help("give seconds from 0 to 10"));
+        }
+        if self.scale.contains_key("neutral") || self.offset.contains_key("neutral") {
+            return Err(Fault::new("a range edit cannot change `neutral`")
+                .help("change the six others; neutral takes up what they gain or lose"));
         }
         let scale = by_emotion(&self.scale, "scale", 1.0)?;
         let offset = by_emotion(&self.offset, "offset", 0.0)?;
@@ -374,11 +394,12 @@ fn number(value: &toml::Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|i| i as f64)).filter(|v| v.is_finite())
 }
 
-fn numbers<const N: usize>(value: &toml::Value) -> Option<[f64; N]> {
+/// Numbers, none farther from 0 than its limit.
+fn numbers<const N: usize>(value: &toml::Value, limits: [f64; N]) -> Option<[f64; N]> {
     let list = value.as_array().filter(|l| l.len() == N)?;
     let mut out = [0.0; N];
-    for (slot, v) in out.iter_mut().zip(list) {
-        *slot = number(v).filter(|v| v.abs() <= 360.0)?;
+    for ((slot, v), limit) in out.iter_mut().zip(list).zip(limits) {
+        *slot = number(v).filter(|v| v.abs() <= limit)?;
     }
     Some(out)
 }

@@ -1,9 +1,8 @@
 //! A pose becomes the drawing of a line figure.
 
-use super::file::INHERIT;
 use super::{Backdrop, LineFigure, eye};
 use crate::drawing::{Colour, Drawing, Item, Layer};
-use crate::geometry::{BezPath, Knot, PathEl};
+use crate::geometry::{BezPath, Knot, PathEl, Ribbon};
 use crate::pose::{Head, Pose};
 
 impl LineFigure {
@@ -12,6 +11,10 @@ impl LineFigure {
     pub fn draw(&self, pose: &Pose) -> Drawing {
         let knots = self.points(pose);
         let mut moving = Vec::new();
+        for fill in &self.fills {
+            let strokes: Vec<Ribbon> = fill.lines.iter().map(|l| self.ribbon(*l, &knots)).collect();
+            moving.push(Item::area(&fill.name, closed(&strokes), fill.colour));
+        }
         for eye in &self.eyes {
             moving.extend(eye.draw(self, &knots, pose));
         }
@@ -25,10 +28,10 @@ impl LineFigure {
         let turned = pose.head != Head::default();
         for part in &self.behind {
             let list = if turned && part.head { &mut head } else { &mut still };
-            list.extend(part.items(self.colours.ink));
+            list.extend(part.items());
         }
         for part in &self.before {
-            moving.extend(part.items(self.colours.ink));
+            moving.extend(part.items());
         }
         if turned {
             head.append(&mut moving);
@@ -59,26 +62,30 @@ impl LineFigure {
 }
 
 impl Backdrop {
-    fn items(&self, ink: Colour) -> Vec<Item> {
+    fn items(&self) -> Vec<Item> {
         let mut items = Vec::new();
         if let Some(fill) = self.fill {
-            let mut path = BezPath::new();
-            for (i, stroke) in self.strokes.iter().enumerate() {
-                let c = stroke.centre();
-                if i == 0 {
-                    path.push(PathEl::MoveTo(c.p0));
-                }
-                path.push(PathEl::CurveTo(c.p1, c.p2, c.p3));
-            }
-            path.close_path();
-            items.push(Item::area(format!("{}-fill", self.name), path, fill));
+            items.push(Item::area(format!("{}-fill", self.name), closed(&self.strokes), fill));
         }
-        if let Some(own) = self.ink {
-            let colour = if own == INHERIT { ink } else { own };
+        if let Some(colour) = self.ink {
             items.push(Item::ink(&self.name, self.strokes.clone(), colour));
         }
         items
     }
+}
+
+/// The area that a chain of strokes goes round, closed by a straight line.
+fn closed(strokes: &[Ribbon]) -> BezPath {
+    let mut path = BezPath::new();
+    for stroke in strokes {
+        let c = stroke.centre();
+        if path.elements().is_empty() {
+            path.push(PathEl::MoveTo(c.p0));
+        }
+        path.push(PathEl::CurveTo(c.p1, c.p2, c.p3));
+    }
+    path.close_path();
+    path
 }
 
 /// What a pose shows, in a sentence.

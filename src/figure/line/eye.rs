@@ -97,7 +97,7 @@ impl Eye {
             let opening = self.opening(knots);
             items.push(Item::area(format!("{side}-eye-white"), opening.clone(), figure.colours.eye_white));
             let look = self.iris_at(top.midpoint(bottom), pose);
-            items.push(Item::clipped(format!("{side}-eye"), opening, self.iris_items(figure, look, pose)));
+            items.push(Item::clipped(format!("{side}-eye"), opening, self.iris_items(figure, side, look, pose)));
         }
         for line in [self.lower, self.upper] {
             items.push(Item::ink(&figure.lines[line].name, vec![figure.ribbon(line, knots)], figure.colours.ink));
@@ -128,23 +128,23 @@ impl Eye {
         self.centre + follow + gaze
     }
 
-    fn iris_items(&self, figure: &LineFigure, at: Point, pose: &Pose) -> Vec<Item> {
+    fn iris_items(&self, figure: &LineFigure, side: &str, at: Point, pose: &Pose) -> Vec<Item> {
         // Fright and surprise show more white (recipe: iris × .86 and × .88 at the full emotion).
         let shock = (pose.ratios[Emotion::Fear] + pose.ratios[Emotion::Surprised]).clamp(0.0, 1.0);
         let r = self.iris * (1.0 - 0.13 * shock);
         let disc = |centre: Point, radius: f64| Circle::new(centre, radius).to_path(0.02);
-        let mut items = vec![Item::area("iris", disc(at, r), figure.colours.iris)];
+        let mut items = vec![Item::area(format!("{side}-iris"), disc(at, r), figure.colours.iris)];
         if self.slit {
             let slit = Ellipse::new(at, (0.3 * r, 0.82 * r), 0.0).to_path(0.02);
-            items.push(Item::area("pupil", slit, figure.colours.pupil));
+            items.push(Item::area(format!("{side}-pupil"), slit, figure.colours.pupil));
         } else if figure.colours.pupil != figure.colours.iris {
-            items.push(Item::area("pupil", disc(at, 0.56 * r), figure.colours.pupil));
+            items.push(Item::area(format!("{side}-pupil"), disc(at, 0.56 * r), figure.colours.pupil));
         }
         // One window, up and to the left in both eyes: without it a stare is dead.
         let light = at + Vec2::new(-0.34 * r, -0.38 * r);
-        items.push(Item::area("light", disc(light, 0.27 * r), figure.colours.eye_white));
+        items.push(Item::area(format!("{side}-light"), disc(light, 0.27 * r), figure.colours.eye_white));
         let low = at + Vec2::new(0.36 * r, 0.42 * r);
-        items.push(Item::area("light-low", disc(low, 0.11 * r), figure.colours.eye_white));
+        items.push(Item::area(format!("{side}-light-low"), disc(low, 0.11 * r), figure.colours.eye_white));
         items
     }
 }

@@ -13,6 +13,10 @@
 //! name = "face"
 //! knots = [[249, 92, 1], [342, 92, 2], [414, 168, 2], [416, 276, 2]]   # 4, 7, 10 … points of a chain of cubics
 //! fill = "#ffffff"
+//! [[fill]]                        # an area that moves with the lines round it
+//! name = "left-ear"
+//! lines = ["ear-outer", "ear-inner"]
+//! colour = "#ffffff"
 //! [[eye]]
 //! upper = "leyeulid"
 //! lower = "leyeblid"
@@ -27,8 +31,8 @@ use serde::Deserialize;
 
 use super::eye::Eye;
 use super::mouth::Mouth;
-use super::{Backdrop, Colours, Line, LineFigure};
-use crate::disk::{Fault, Result, from_toml, nearest};
+use super::{Backdrop, Colours, Fill, Line, LineFigure};
+use crate::disk::{Fault, Result, from_toml, nearest, plain_name};
 use crate::drawing::Colour;
 use crate::geometry::{Knot, Point, Rect, Ribbon};
 use crate::pose::Emotion;
@@ -56,6 +60,8 @@ struct File {
     behind: Vec<FileBackdrop>,
     #[serde(default)]
     before: Vec<FileBackdrop>,
+    #[serde(default, rename = "fill")]
+    fills: Vec<FileFill>,
     #[serde(default, rename = "eye")]
     eyes: Vec<FileEye>,
     mouth: FileMouth,
@@ -105,6 +111,14 @@ fn yes() -> bool {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+struct FileFill {
+    name: String,
+    lines: Vec<String>,
+    colour: Colour,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileEye {
     upper: String,
     lower: String,
@@ -148,10 +162,19 @@ impl LineFigure {
         }
         let lines: Vec<Line> = file.lines.into_iter().map(|l| Line { name: l.name, points: l.points }).collect();
         for line in &lines {
+            plain_name(&line.name)?;
             if let Some(point) = line.points.iter().find(|p| **p >= count) {
                 return Err(Fault::new(format!("the line `{}` has a point {point}", line.name))
                     .help(format!("points are numbered 0 to {}", count.saturating_sub(1))));
             }
+        }
+        if let Some([x, y]) = file.pivot.filter(|p| p.iter().any(|v| !v.is_finite() || v.abs() > FARTHEST)) {
+            return Err(Fault::new(format!("`pivot` is [{x}, {y}]")).help(format!("give numbers up to {FARTHEST}")));
+        }
+        if file.mouth.upper.is_empty() || file.mouth.lower.is_empty() {
+            return Err(
+                Fault::new("a lip of the mouth has no lines").help("name the lines of both `upper` and `lower`")
+            );
         }
         let view = Rect::new(file.view[0], file.view[1], file.view[0] + file.view[2], file.view[1] + file.view[3]);
         let shown = file.view.iter().all(|v| v.is_finite() && v.abs() <= FARTHEST);
@@ -171,6 +194,12 @@ impl LineFigure {
         for eye in &file.eyes {
             eyes.push(Eye::new((line(&eye.upper)?, line(&eye.lower)?), eye.iris, eye.slit, &drawings[0], &lines)?);
         }
+        let mut fills = Vec::new();
+        for fill in &file.fills {
+            plain_name(&fill.name)?;
+            let lines = fill.lines.iter().map(line).collect::<Result<Vec<_>>>()?;
+            fills.push(Fill { name: fill.name.clone(), lines, colour: fill.colour });
+        }
         let m = &file.mouth;
         let upper = m.upper.iter().map(line).collect::<Result<Vec<_>>>()?;
         let lower = m.lower.iter().map(line).collect::<Result<Vec<_>>>()?;
@@ -184,10 +213,11 @@ impl LineFigure {
             view,
             pen: file.pen,
             colours: file.colours,
-            behind: backdrops(file.behind, file.pen)?,
-            before: backdrops(file.before, file.pen)?,
+            behind: backdrops(file.behind, file.pen, file.colours.ink)?,
+            before: backdrops(file.before, file.pen, file.colours.ink)?,
             lines,
             drawings,
+            fills,
             eyes,
             mouth,
             pivot,
@@ -208,8 +238,9 @@ fn knots(list: &Triples, of: &str) -> Result<Vec<Knot>> {
         .collect()
 }
 
-fn backdrops(list: Vec<FileBackdrop>, pen: f64) -> Result<Vec<Backdrop>> {
+fn backdrops(list: Vec<FileBackdrop>, pen: f64, usual: Colour) -> Result<Vec<Backdrop>> {
     let read = |part: FileBackdrop| {
+        plain_name(&part.name)?;
         let mut knots = knots(&part.knots, &part.name)?;
         if knots.len() < 4 || knots.len() % 3 != 1 {
             return Err(Fault::new(format!("`{}` has {} knots", part.name, knots.len()))
@@ -219,17 +250,8 @@ fn backdrops(list: Vec<FileBackdrop>, pen: f64) -> Result<Vec<Backdrop>> {
             knot.w *= pen;
         }
         let strokes = knots.windows(4).step_by(3).map(|k| Ribbon([k[0], k[1], k[2], k[3]])).collect();
-        let ink = if part.no_ink { None } else { Some(part.ink) };
-        Ok(Backdrop {
-            name: part.name,
-            strokes,
-            fill: part.fill,
-            ink: ink.map(|c| c.unwrap_or(INHERIT)),
-            head: part.head,
-        })
+        let ink = if part.no_ink { None } else { Some(part.ink.unwrap_or(usual)) };
+        Ok(Backdrop { name: part.name, strokes, fill: part.fill, ink, head: part.head })
     };
     list.into_iter().map(read).collect()
 }
-
-/// Stands for the figure's own ink until the figure is drawn; nobody writes an invisible ink of this blue.
-pub(super) const INHERIT: Colour = Colour { r: 1, g: 2, b: 255, a: 0 };

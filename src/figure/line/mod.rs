@@ -30,6 +30,7 @@ pub struct LineFigure {
     drawings: [Vec<Knot>; 7],
     behind: Vec<Backdrop>,
     before: Vec<Backdrop>,
+    fills: Vec<Fill>,
     eyes: Vec<eye::Eye>,
     mouth: mouth::Mouth,
     /// What the head turns about.
@@ -79,6 +80,14 @@ struct Backdrop {
     ink: Option<Colour>,
     /// Whether it moves with the head.
     head: bool,
+}
+
+/// An area that moves with the lines round it.
+#[derive(Debug, Clone)]
+struct Fill {
+    name: String,
+    lines: Vec<usize>,
+    colour: Colour,
 }
 
 impl LineFigure {
