@@ -15,6 +15,11 @@ const FINER: u32 = 4;
 /// Colour levels of a channel that are told apart: steps finer than this cost bytes at every move and show nothing.
 const LEVELS: u32 = 32;
 
+/// In a picture of fewer rows than this, what differs a little from white is made to differ by up to so much more:
+/// averaged over a cell, lines are pale.
+const SMALL: u16 = 20;
+const STRONGER: f32 = 0.9;
+
 /// How dark a dot must be to be drawn where there are no colours.
 const DARK: u32 = 190;
 
@@ -24,6 +29,8 @@ pub struct FacePicture {
     painter: Option<Painter>,
     shown: Option<(String, Pose, Size, Colours)>,
     size: Size,
+    /// The figure as it is painted: the face alone, bold enough for so few pixels.
+    close: Option<LineFigure>,
     cells: Vec<Cell>,
 }
 
@@ -38,7 +45,7 @@ impl FacePicture {
     /// How many cells a figure takes of an area: as high as it is, as wide as the figure then is.
     #[must_use]
     pub fn size_in(figure: &LineFigure, area: Size) -> Size {
-        let view = figure.view();
+        let view = figure.face_view();
         let aspect = (view.width() / view.height().max(1e-6)).clamp(0.1, 10.0);
         // A cell is twice as high as it is wide.
         let wide = (f64::from(area.height) * 2.0 * aspect).ceil().min(f64::from(area.width)) as u16;
@@ -56,13 +63,17 @@ impl FacePicture {
         if self.size != size || self.shown.as_ref().is_none_or(|s| s.0 != wanted.0 || s.3 != colours) {
             let (wide, high) = (u32::from(size.width) * FINER, u32::from(size.height) * 2 * FINER);
             self.painter = Painter::new(wide, high).ok();
+            // A line thinner than a pixel is a grey haze.
+            let bolder = (40.0 / (2.0 * f64::from(size.height.max(1)))).clamp(1.0, 1.8);
+            self.close = Some(figure.close_up(bolder));
         }
         self.cells.clear();
-        if let Some(painter) = &mut self.painter {
-            let picture = painter.paint(&figure.draw(pose));
+        let contrast = if size.height < SMALL { STRONGER } else { 0.0 };
+        if let (Some(painter), Some(close)) = (&mut self.painter, &self.close) {
+            let picture = painter.paint(&close.draw(pose));
             for y in 0..u32::from(size.height) {
                 for x in 0..u32::from(size.width) {
-                    self.cells.push(cell(&picture, x * FINER, y * 2 * FINER, colours));
+                    self.cells.push(cell(&picture, x * FINER, y * 2 * FINER, contrast, colours));
                 }
             }
         }
@@ -101,11 +112,16 @@ impl FacePicture {
 }
 
 /// The cell whose pixels start at (x, y): 4 across and 8 down.
-fn cell(picture: &Picture, x: u32, y: u32, colours: Colours) -> Cell {
+fn cell(picture: &Picture, x: u32, y: u32, contrast: f32, colours: Colours) -> Cell {
     if colours != Colours::None {
         return Cell::Pixels([0, FINER].map(|down| {
             let mean = mean(picture, x, y + down, FINER, FINER);
-            mean.map(|v| ((v * (LEVELS - 1) + 127) / 255 * 255 / (LEVELS - 1)) as u8)
+            mean.map(|v| {
+                // Pale things gain most; what is dark already keeps its colour.
+                let dark = (255 - v) as f32 / 255.0;
+                let v = 255 - (255.0 * dark * (1.0 + contrast * (1.0 - dark))).min(255.0) as u32;
+                ((v * (LEVELS - 1) + 127) / 255 * 255 / (LEVELS - 1)) as u8
+            })
         }));
     }
     // Braille: two columns of four dots; the bits run down the left column, down the right, then the bottom row.
@@ -170,7 +186,7 @@ mod tests {
     fn the_picture_has_the_figures_shape() {
         let figure = LineFigure::built_in("line").unwrap();
         let size = FacePicture::size_in(&figure, Size::new(80, 12));
-        assert!((20..=26).contains(&size.width) && size.height == 12, "{size:?}");
+        assert!((18..=26).contains(&size.width) && size.height == 12, "{size:?}");
         let narrow = FacePicture::size_in(&figure, Size::new(10, 40));
         assert!(narrow.width == 10 && narrow.height < 10, "{narrow:?}");
     }

@@ -6,6 +6,7 @@
 //! view = [0, 40, 498, 560]        # x, y, width, height of what is shown
 //! pen = 2.0                       # pixels per unit of width
 //! pivot = [249, 560]              # what the head turns about
+//! close = [20, 50, 458, 520]      # the part with the face, for pictures too small for the rest
 //! lines = [ { name = "rbow", points = [0, 1, 2, 3] } ]
 //! [drawings]                      # x, y, width of every point, for each of the seven
 //! neutral = [[365, 270, 1]]
@@ -52,6 +53,7 @@ struct File {
     #[serde(default = "two")]
     pen: f64,
     pivot: Option<[f64; 2]>,
+    close: Option<[f64; 4]>,
     #[serde(default)]
     colours: Colours,
     lines: Vec<FileLine>,
@@ -176,11 +178,10 @@ impl LineFigure {
                 Fault::new("a lip of the mouth has no lines").help("name the lines of both `upper` and `lower`")
             );
         }
-        let view = Rect::new(file.view[0], file.view[1], file.view[0] + file.view[2], file.view[1] + file.view[3]);
-        let shown = file.view.iter().all(|v| v.is_finite() && v.abs() <= FARTHEST);
-        if !(shown && view.width() > 0.0 && view.height() > 0.0 && file.pen > 0.0 && file.pen <= 100.0) {
-            return Err(Fault::new("`view` or `pen` shows nothing")
-                .help("give x, y, width and height, and a pen above 0 and at most 100"));
+        let view = area(file.view, "view")?;
+        let close = file.close.map_or(Ok(view), |close| area(close, "close"))?;
+        if !(file.pen > 0.0 && file.pen <= 100.0) {
+            return Err(Fault::new(format!("`pen` is {}", file.pen)).help("give a number above 0 and at most 100"));
         }
         let names = Self::index_of_lines(&lines);
         let line = |name: &String| {
@@ -211,6 +212,7 @@ impl LineFigure {
         Ok(Self {
             title: crate::disk::clean_line(&file.title, 200),
             view,
+            close,
             pen: file.pen,
             colours: file.colours,
             behind: backdrops(file.behind, file.pen, file.colours.ink)?,
@@ -223,6 +225,16 @@ impl LineFigure {
             pivot,
         })
     }
+}
+
+/// An area that shows something: x, y, width and height.
+fn area([x, y, width, height]: [f64; 4], name: &str) -> Result<Rect> {
+    let near = [x, y, width, height].iter().all(|v| v.is_finite() && v.abs() <= FARTHEST);
+    if near && width > 0.0 && height > 0.0 {
+        return Ok(Rect::new(x, y, x + width, y + height));
+    }
+    Err(Fault::new(format!("`{name}` is [{x}, {y}, {width}, {height}]"))
+        .help(format!("give x, y, width and height, up to {FARTHEST}, the last two above 0")))
 }
 
 fn knots(list: &Triples, of: &str) -> Result<Vec<Knot>> {

@@ -22,6 +22,8 @@ use crate::pose::Ratios;
 pub struct LineFigure {
     title: String,
     view: Rect,
+    /// The part of the view with the face.
+    close: Rect,
     /// Pixels of the figure per unit of stroke width.
     pen: f64,
     colours: Colours,
@@ -120,6 +122,26 @@ impl LineFigure {
     #[must_use]
     pub fn view(&self) -> Rect {
         self.view
+    }
+
+    /// The part of its plane with the face.
+    #[must_use]
+    pub fn face_view(&self) -> Rect {
+        self.close
+    }
+
+    /// The figure as small pictures need it: the face without what is round it, its lines `bolder` times as wide.
+    #[must_use]
+    pub fn close_up(&self, bolder: f64) -> Self {
+        let mut figure = self.clone();
+        figure.view = self.close;
+        figure.pen *= bolder;
+        for part in figure.behind.iter_mut().chain(&mut figure.before) {
+            for knot in part.strokes.iter_mut().flat_map(|s| &mut s.0) {
+                knot.w *= bolder;
+            }
+        }
+        figure
     }
 
     /// The names of its lines.
