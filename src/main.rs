@@ -8,9 +8,10 @@ use lianpu::cli::{self, Cli};
 use lianpu::disk::Fault;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
     let mut out = BufWriter::new(io::stdout().lock());
-    let done = cli::run(&cli, &mut out)
+    let done = cli::mistyped(std::env::args_os().nth(1).as_deref())
+        .map_or(Ok(()), Err)
+        .and_then(|()| cli::run(&Cli::parse(), &mut out))
         .and_then(|()| out.flush().map_err(|e| Fault::io("cannot write the output", "standard output", e)));
     match done {
         Ok(()) => ExitCode::SUCCESS,

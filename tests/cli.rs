@@ -172,6 +172,24 @@ fn wrong_calls_and_wrong_inputs_are_told_apart_and_say_what_to_do() {
 }
 
 #[test]
+fn subtitles_are_phrases_without_markup_and_a_folder_of_lessons_is_all_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out").display().to_string();
+    let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").display().to_string();
+    done(&["export", &all, "--to", "srt,textgrid", "--out", &out]);
+    let srt = std::fs::read_to_string(folder.path().join("out/nihao/nihao.srt")).unwrap();
+    assert_eq!(srt.lines().collect::<Vec<_>>()[..3], ["1", "00:00:00,300 --> 00:00:01,284", "您好。"]);
+    assert!(folder.path().join("out/seven-emotions/walk.TextGrid").is_file());
+    assert!(done(&["check", &all]).contains("seven-emotions"));
+}
+
+#[test]
+fn a_mistyped_command_is_told_from_a_folder() {
+    fails(&["exprot", "mine"], 2, "did you mean `export`");
+    fails(&["nowhere"], 2, "neither a command nor a folder");
+}
+
+#[test]
 fn one_damaged_lesson_does_not_keep_the_others_from_being_exported() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out").display().to_string();

@@ -70,6 +70,61 @@ fn a_change_is_made_saved_and_read_back() {
 }
 
 #[test]
+fn a_file_that_was_changed_by_something_else_is_not_overwritten() {
+    let (_folder, root) = sample();
+    let mut lesson = Lesson::open(&root).unwrap();
+    let change = move_start(&lesson, 0.28);
+    lesson.change(change).unwrap();
+    let path = root.join("clips/nihao/timing.TextGrid");
+    let other = std::fs::read_to_string(&path).unwrap().replace("1.283764", "1.25");
+    std::fs::write(&path, &other).unwrap();
+    let fault = lesson.save().unwrap_err();
+    assert!(fault.to_string().contains("changed by something else"), "{fault}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), other);
+    assert!(lesson.is_unsaved());
+    std::fs::remove_file(&path).unwrap();
+    lesson.save().unwrap();
+    assert_eq!(times(&Lesson::read(&root).unwrap())[0].0, 0.28);
+}
+
+#[test]
+fn what_is_noted_after_a_recovery_is_recovered_too() {
+    let (_folder, root) = sample();
+    let key = |time| Change::one("key", Edit::AddKey { clip: 0, key: Key::new(time, KeyValue::Blink(0.2)) });
+    let mut lesson = Lesson::open(&root).unwrap();
+    lesson.change(key(0.5)).unwrap();
+    drop(lesson);
+    let journal = root.join(".lianpu/journal");
+    let mut bytes = std::fs::read(&journal).unwrap();
+    bytes.extend_from_slice(b"{\"label\":\"half");
+    std::fs::write(&journal, bytes).unwrap();
+    let mut lesson = Lesson::open(&root).unwrap();
+    lesson.change(key(0.9)).unwrap();
+    drop(lesson);
+    let lesson = Lesson::open(&root).unwrap();
+    assert_eq!(lesson.recovered, 2);
+    // A save that was cut off before it emptied the journal: nothing is made twice.
+    let bytes = std::fs::read(&journal).unwrap();
+    let keys = lesson.clips[0].score.keys.len();
+    let mut lesson = lesson;
+    lesson.save().unwrap();
+    drop(lesson);
+    std::fs::write(&journal, bytes).unwrap();
+    let lesson = Lesson::open(&root).unwrap();
+    assert_eq!(lesson.clips[0].score.keys.len(), keys);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_recording_that_is_a_link_out_of_the_lesson_is_refused() {
+    let (folder, root) = sample();
+    let speech = root.join("clips/nihao/speech.wav");
+    std::fs::rename(&speech, folder.path().join("other.wav")).unwrap();
+    std::os::unix::fs::symlink(folder.path().join("other.wav"), &speech).unwrap();
+    assert!(Lesson::read(&root).unwrap_err().to_string().contains("leads out"));
+}
+
+#[test]
 fn saving_twice_writes_nothing_the_second_time() {
     let (_folder, root) = sample();
     let mut lesson = Lesson::open(&root).unwrap();

@@ -17,7 +17,7 @@ use crate::project::Lesson;
 /// Write lessons as frames and subtitles. Run again, it only writes what is missing or has changed.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The projects.
+    /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     projects: Vec<PathBuf>,
     /// The forms, with commas between them: svg, png, textgrid, srt, vtt.
@@ -60,11 +60,12 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 
 /// Exports every project and prints where the files are.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let projects = super::lessons(&args.projects);
     let request = Request {
         formats: distinct(&args.formats),
         clip: args.clip.clone(),
         out: args.out.clone(),
-        by_project: args.projects.len() > 1,
+        by_project: projects.len() > 1,
         frames: args.frames.clone().unwrap_or_default(),
         shard: args.shard.unwrap_or(Shard::WHOLE),
         size: args.size,
@@ -78,13 +79,13 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
         let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
     }
-    check_names(args)?;
+    check_names(&projects, args)?;
     let mut failed = 0;
-    for project in &args.projects {
+    for project in &projects {
         match one(project, args, &request, &stop, out) {
             Ok(()) => {}
             // One damaged lesson must not keep a course from being exported.
-            Err(fault) if args.projects.len() > 1 && !fault.is_of_the_call() && !stop.load(Ordering::Relaxed) => {
+            Err(fault) if projects.len() > 1 && !fault.is_of_the_call() && !stop.load(Ordering::Relaxed) => {
                 eprintln!("error: {}: {fault}", project.display());
                 failed += 1;
             }
@@ -93,7 +94,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     }
     match failed {
         0 => Ok(()),
-        n => Err(Fault::new(format!("{n} of {} projects could not be exported", args.projects.len()))
+        n => Err(Fault::new(format!("{n} of {} projects could not be exported", projects.len()))
             .help("the reasons are above; run it again when they are mended")),
     }
 }
@@ -110,13 +111,13 @@ fn distinct(formats: &[Format]) -> Vec<Format> {
 }
 
 /// Projects that are exported into one place need names that differ there.
-fn check_names(args: &Args) -> Result<()> {
+fn check_names(projects: &[PathBuf], args: &Args) -> Result<()> {
     if args.out.is_none() {
         return Ok(());
     }
     let name = |p: &PathBuf| p.canonicalize().ok().and_then(|p| p.file_name().map(|n| n.to_owned()));
-    for (i, project) in args.projects.iter().enumerate() {
-        if let Some(other) = args.projects[..i].iter().find(|o| name(o).is_some() && name(o) == name(project)) {
+    for (i, project) in projects.iter().enumerate() {
+        if let Some(other) = projects[..i].iter().find(|o| name(o).is_some() && name(o) == name(project)) {
             return Err(Fault::new(format!(
                 "`{}` and `{}` would be written into the same folder",
                 other.display(),
@@ -172,7 +173,8 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
         0 => String::new(),
         n => format!(", {n} left over from a longer export removed"),
     };
-    eprintln!("{} files written, {} already there{removed}", report.written, report.kept);
+    let files = if report.written == 1 { "file" } else { "files" };
+    eprintln!("{} {files} written, {} already there{removed}", report.written, report.kept);
     Ok(())
 }
 

@@ -15,7 +15,7 @@ use std::io::Write;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, nearest};
 
 /// A terminal studio that makes a face talk.
 #[derive(Debug, Parser)]
@@ -47,6 +47,35 @@ enum Command {
     Syllables(syllables::Args),
     /// Print what makes a shell complete this program's words.
     Completions(completions::Args),
+}
+
+/// What is wrong with a call whose first word is neither a command nor a folder that is there: most likely the command
+/// was mistyped, and the parser would speak of folders.
+#[must_use]
+pub fn mistyped(first: Option<&std::ffi::OsStr>) -> Option<Fault> {
+    let word = first?.to_str()?;
+    let program = Cli::command();
+    let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+    let is_known = word.starts_with('-') || word == "help" || names.contains(&word);
+    if is_known || std::path::Path::new(word).exists() || word.contains(std::path::MAIN_SEPARATOR) {
+        return None;
+    }
+    let near = nearest(word, &names).map_or(String::new(), |n| format!("did you mean `{n}`? "));
+    Some(
+        Fault::new(format!("`{word}` is neither a command nor a folder here"))
+            .help(format!("{near}commands: {}", names.join(", ")))
+            .of_the_call(),
+    )
+}
+
+/// The lessons that paths name: a lesson itself, or all those in a folder that holds some.
+pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
+    let of = |path: &std::path::PathBuf| match crate::project::projects_in(path) {
+        Ok(found) if !found.is_empty() => found,
+        // Whoever reads it says what is wrong with it.
+        _ => vec![path.clone()],
+    };
+    paths.iter().flat_map(of).collect()
 }
 
 /// Runs one call of the program.

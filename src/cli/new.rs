@@ -65,6 +65,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;
     }
     let quoted = if args.project.to_string_lossy().contains(' ') { format!("'{root}'") } else { root.to_string() };
-    say(format!("next: lianpu {quoted}                      see and correct it in the studio"))?;
-    say(format!("      lianpu export {quoted} --to png      write its frames"))
+    say("next, to see and correct it in the studio, and to write its frames:".into())?;
+    say(format!("  lianpu {quoted}"))?;
+    say(format!("  lianpu export {quoted} --to png"))
 }

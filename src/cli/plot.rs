@@ -72,10 +72,13 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         let pose = timeline.pose(t);
         (format!("{t:.2} s"), figure.draw(&pose), Some(pose.ratios))
     };
+    let only_latin = args.font.is_none()
+        && args.out.as_ref().is_some_and(|p| p.extension().is_some_and(|e| e == "png"))
+        && crate::render::uncovered(&clip.script).is_some();
     let (name, drawing) = match args.what {
         What::Ratios => ("ratios", plot::ratios(&title, &samples)),
         What::Change => ("change", plot::change(&title, &samples)),
-        What::Timeline => ("timeline", score_of(&title, clip, &timeline, &samples)),
+        What::Timeline => ("timeline", score_of(&title, clip, &timeline, &samples, only_latin)),
         What::Faces if args.at.is_empty() => {
             let pure = |e: Emotion| (e.name().to_owned(), figure.draw(&Pose::of(Ratios::pure(e))), None);
             ("faces", plot::faces(figure.title(), &Emotion::ALL.map(pure)))
@@ -99,10 +102,16 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}", path.display()).map_err(output_fault)
 }
 
-fn score_of(title: &str, clip: &crate::project::Clip, timeline: &Timeline, samples: &[(f64, Ratios)]) -> Drawing {
+fn score_of(
+    title: &str,
+    clip: &crate::project::Clip,
+    timeline: &Timeline,
+    samples: &[(f64, Ratios)],
+    only_latin: bool,
+) -> Drawing {
     let duration = timeline.duration();
     let peaks = clip.sound.as_ref().map(|s| s.peaks(0.0, duration, 1250)).unwrap_or_default();
-    let guessed = if clip.timing.guessed { "guessed" } else { "script" };
+    let name = if clip.timing.guessed { "guessed" } else { "said" };
     let said = clip.intervals().iter().zip(&clip.syllables);
     let text = said.clone().map(|(i, s)| (i.start, i.end, s.text.clone())).collect();
     let sounds = said.map(|(i, s)| (i.start, i.end, crate::script::with_marks(&s.pinyin))).collect();
@@ -112,12 +121,17 @@ fn score_of(title: &str, clip: &crate::project::Clip, timeline: &Timeline, sampl
         .filter_map(|k| k.shape.map(|s| (k.time, k.time, s.letter().to_string())))
         .collect();
     let blinks = timeline.blinks().iter().map(|b| (b.start, b.start + b.length, String::new())).collect();
-    let rows = [
-        plot::Row { name: guessed, spans: text },
-        plot::Row { name: "pinyin", spans: sounds },
-        plot::Row { name: "mouth", spans: shapes },
-        plot::Row { name: "blinks", spans: blinks },
-    ];
+    let mut rows = vec![plot::Row { name, spans: text }];
+    if clip.syllables.iter().any(|s| !s.pinyin.is_empty() && s.pinyin != s.text) {
+        rows.push(plot::Row { name: "pinyin", spans: sounds });
+    }
+    if only_latin && rows.len() == 2 {
+        // Both rows would be Pinyin.
+        rows.remove(0);
+        rows[0].name = name;
+    }
+    rows.push(plot::Row { name: "mouth", spans: shapes });
+    rows.push(plot::Row { name: "blinks", spans: blinks });
     plot::timeline(title, duration, &peaks, &rows, samples)
 }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::disk::{Fault, Result};
 use crate::export::{self, Format, Request};
-use crate::project::Lesson;
+use crate::project::{Lesson, projects_in};
 use crate::studio::{self, ExportRequest, Progress};
 
 /// Whether there is somebody to open it for.
@@ -14,9 +14,15 @@ pub fn is_possible() -> bool {
     std::io::stdin().is_terminal() && std::io::stdout().is_terminal()
 }
 
-/// Opens the studio on a folder of projects, or on one.
+/// Opens the studio on a folder of projects, or on one; `projects`, or what is here, where none is named.
 pub fn open(folder: Option<&Path>) -> Result<()> {
-    studio::run(folder.unwrap_or(Path::new("projects")), Box::new(run_export))
+    let usual = [Path::new("projects"), Path::new(".")];
+    let has_lessons = |f: &&Path| projects_in(f).is_ok_and(|found| !found.is_empty());
+    match folder.or_else(|| usual.into_iter().find(has_lessons)) {
+        Some(folder) => studio::run(folder, Box::new(run_export)),
+        None => Err(Fault::new("there are no lessons here yet")
+            .help("make one: lianpu new my-lesson --speech a.wav --script a.txt")),
+    }
 }
 
 /// Exports what the studio asks for, from the files as they are.
@@ -48,6 +54,10 @@ fn run_export(request: ExportRequest, progress: &dyn Fn(Progress), stop: &Atomic
             progress(Progress { done: p.done.into(), total: p.of.into(), what: "frames".into() });
         }
         worker.join().unwrap_or_else(|_| Err(Fault::new("the export broke off")))
+    });
+    let report = report.map_err(|fault| {
+        let help = format!("elsewhere: lianpu export {} --to {} --out DIR", request.project.display(), request.formats);
+        Fault::new(fault.what()).help(help)
     })?;
     if report.stopped {
         return Ok(format!("stopped: {} files written, the rest when it is run again", report.written));

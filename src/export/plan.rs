@@ -9,6 +9,7 @@ use crate::drawing::Colour;
 use crate::figure::LineFigure;
 use crate::project::{Lesson, Output};
 use crate::timeline::Timeline;
+use crate::timing::Timing;
 
 /// A form that a clip is exported in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,7 +183,15 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
             Format::Svg | Format::Png => return None,
         };
         let path = out.join(format!("{}.{}", clip.entry.name, timing.extension()));
-        Some((path, crate::timing::write(&clip.timing, timing)))
+        // Subtitles are for an audience, which reads phrases and no markup; the TextGrid is for people who edit times.
+        let text = match format {
+            Format::TextGrid => crate::timing::write(&clip.timing, timing),
+            _ => {
+                let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
+                crate::timing::write(&phrases, timing)
+            }
+        };
+        Some((path, text))
     });
     Ok(Job {
         title: lesson.manifest.title.clone(),

@@ -8,6 +8,9 @@ use crate::disk::Fault;
 use crate::script::Lang;
 use crate::timeline::KeyValue;
 
+/// Syllables a second that nobody reaches; fast Mandarin has 7.
+const FASTEST: f64 = 11.0;
+
 /// One thing that a check found.
 #[derive(Debug)]
 pub enum Finding {
@@ -82,6 +85,16 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     }
     if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
         found.push(odd("there is sound and no script, so the mouth stays shut".into()));
+    }
+    if clip.sound.is_none() && !clip.syllables.is_empty() {
+        found.push(odd("there is no recording: put it there as speech.wav".into()));
+    }
+    let sounding: f64 = clip.sound.iter().flat_map(crate::speech::Sound::sounding).map(|(a, b)| b - a).sum();
+    let rate = clip.syllables.len() as f64 / sounding.max(1e-3);
+    if clip.sound.is_some() && rate > FASTEST {
+        found.push(odd(format!(
+            "{rate:.0} syllables a second is more than anyone says: is this the script of this sound?"
+        )));
     }
     if clip.timing.tier("shapes").is_some() && !clip.syllables.is_empty() {
         found.push(odd("its tier `shapes` moves the mouth; syllables' times and readings do not".into()));

@@ -6,7 +6,7 @@ use super::manifest::ClipEntry;
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::{MouthPreset, MouthShape};
-use crate::script::{self, OnsetPreset, Reading, Syllable, System};
+use crate::script::{self, OnsetPreset, Pause, Reading, Syllable, System};
 use crate::speech::Sound;
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Interval, Tier, Timing};
@@ -39,10 +39,19 @@ pub struct Clip {
     pub score: Score,
     /// What is odd but not wrong, for the author to know.
     pub warnings: Vec<String>,
+    /// Checksums of the files that saving writes, as they were read.
+    pub(super) seen: Seen,
     /// The script's own syllables, before labels gave other readings.
     plain: Vec<Syllable>,
     /// Length of the sound in seconds, 0 without one.
     sound_seconds: f64,
+}
+
+/// What the files that saving writes looked like when they were last read or written; none where there was none.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Seen {
+    pub(super) timing: Option<u32>,
+    pub(super) score: Option<u32>,
 }
 
 impl Clip {
@@ -76,6 +85,7 @@ impl Clip {
             tracks: None,
             score: Score::default(),
             warnings: Vec::new(),
+            seen: Seen::default(),
             plain: Vec::new(),
             sound_seconds: 0.0,
         };
@@ -98,9 +108,11 @@ impl Clip {
         }
         if let Some((path, text)) = text("score.toml")? {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
+            clip.seen.score = super::save::checksum(&path);
         }
         match file("timing.TextGrid")? {
             Some(path) => {
+                clip.seen.timing = super::save::checksum(&path);
                 let timing = timing::read(&path)?;
                 clip.take_timing(timing).map_err(|f| f.at(&path))?;
                 clip.timing.guessed = clip.score.guessed;
@@ -199,6 +211,32 @@ impl Clip {
         self.syllables.iter().zip(self.intervals()).map(spoken).collect()
     }
 
+    /// What is said as an audience reads it: phrases as the script writes them, cut at its punctuation, at pauses, and
+    /// where they get too long for a line.
+    #[must_use]
+    pub fn phrases(&self) -> Tier {
+        const PAUSE: f64 = 0.25;
+        const LONGEST: usize = 18;
+        let said: Vec<(&Syllable, &Interval)> = self.syllables.iter().zip(self.intervals()).collect();
+        let mut tier = Tier::new("phrases");
+        let mut first = 0;
+        for i in 0..said.len() {
+            let next = said.get(i + 1);
+            let ends = next.is_none_or(|n| n.1.start - said[i].1.end > PAUSE)
+                || said[i].0.pause_after != Pause::None
+                || i + 1 - first >= LONGEST;
+            if ends {
+                // With the punctuation that follows, without forced readings in braces.
+                let upto = next.map_or(self.script.len(), |n| n.0.span.start);
+                let text = self.script.get(said[first].0.span.start..upto).unwrap_or_default();
+                let label = without_braces(text);
+                tier.intervals.push(Interval::new(said[first].1.start, said[i].1.end, label));
+                first = i + 1;
+            }
+        }
+        tier
+    }
+
     /// The clip's score, built.
     #[must_use]
     pub fn timeline(&self, fps: f64, mouths: MouthPreset) -> Timeline {
@@ -285,6 +323,21 @@ fn label_reading(syllable: &Syllable, label: &str) -> Option<Reading> {
     let reading = script::readings(label, System::Auto).into_iter().find(|r| can_have(syllable, r))?;
     let says_less = reading.tone().is_none() && syllable.sound() == Some(reading.sound());
     (!says_less).then_some(reading)
+}
+
+/// A piece of script on one line, without its `{…}`.
+fn without_braces(text: &str) -> String {
+    let mut out = String::new();
+    let mut inside = false;
+    for c in text.chars() {
+        match c {
+            '{' => inside = true,
+            '}' => inside = false,
+            c if !inside => out.push(c),
+            _ => {}
+        }
+    }
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).

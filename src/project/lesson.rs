@@ -65,7 +65,7 @@ impl Lesson {
                 lesson.lock = Some(lock);
                 lesson.read_only = None;
             }
-            Ok(None) => lesson.read_only = Some("it is open in another window".into()),
+            Ok(None) => lesson.read_only = Some(ELSEWHERE.into()),
             Err(_) => lesson.read_only = Some("its folder cannot be written to".into()),
         }
         if lesson.read_only.is_none() {
@@ -90,8 +90,7 @@ impl Lesson {
     /// When the lesson is read-only, the change does not fit it, or the journal cannot be written.
     pub fn change(&mut self, change: Change) -> Result<()> {
         if let Some(why) = &self.read_only {
-            return Err(Fault::new(format!("the lesson cannot be changed: {why}"))
-                .help("copy the folder to a place of yours and open the copy"));
+            return Err(refusal("changed", why));
         }
         self.make(&change)?;
         self.history.push(change);
@@ -199,6 +198,16 @@ impl Lesson {
         figure_of_face(&self.root, self.manifest.face_of(clip))
     }
 }
+
+/// Why a read-only lesson cannot be changed or saved, and what to do.
+pub(super) fn refusal(what: &str, why: &str) -> Fault {
+    let help =
+        if why == ELSEWHERE { "close it there" } else { "copy the folder to a place of yours and open the copy" };
+    Fault::new(format!("the lesson cannot be {what}: {why}")).help(help)
+}
+
+/// Why a lesson is read-only that somebody is working on.
+const ELSEWHERE: &str = "it is open in another window";
 
 /// The figure of a face; the line face where there is no face, or it names none.
 pub(super) fn figure_of_face(root: &Path, face: Option<&FaceEntry>) -> Result<LineFigure> {

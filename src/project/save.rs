@@ -1,6 +1,6 @@
 //! Saving: only files whose content differs are written, each whole.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::{Clip, Lesson};
 use crate::disk::{Fault, Result, write_whole};
@@ -15,8 +15,7 @@ impl Lesson {
     /// journal.
     pub fn save(&mut self) -> Result<Vec<PathBuf>> {
         if let Some(why) = &self.read_only {
-            return Err(Fault::new(format!("the lesson cannot be saved: {why}"))
-                .help("copy the folder to a place of yours and open the copy"));
+            return Err(super::lesson::refusal("saved", why));
         }
         let mut written = Vec::new();
         for clip in &mut self.clips {
@@ -51,21 +50,37 @@ impl Clip {
             self.score.guessed = self.timing.guessed && self.score.pins.len() < self.syllables.len();
             if !self.intervals().is_empty() {
                 let text = timing::write(&self.timing, Format::TextGrid);
-                written.extend(write_changed(self.folder.join("timing.TextGrid"), &text)?);
+                written.extend(write_changed(self.folder.join("timing.TextGrid"), &text, &mut self.seen.timing)?);
             }
         }
         let path = self.folder.join("score.toml");
         if self.score != Score::default() || path.exists() {
-            written.extend(write_changed(path, &self.score.to_toml())?);
+            written.extend(write_changed(path, &self.score.to_toml(), &mut self.seen.score)?);
         }
         Ok(written)
     }
 }
 
-fn write_changed(path: PathBuf, text: &str) -> Result<Option<PathBuf>> {
-    if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
+/// What a file looks like; none where there is none.
+pub(super) fn checksum(path: &Path) -> Option<u32> {
+    std::fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes))
+}
+
+/// Writes a text where the file differs from it, unless somebody else has changed the file meanwhile.
+fn write_changed(path: PathBuf, text: &str, seen: &mut Option<u32>) -> Result<Option<PathBuf>> {
+    let (now, new) = (checksum(&path), crc32fast::hash(text.as_bytes()));
+    if now == Some(new) {
+        *seen = now;
         return Ok(None);
     }
+    if now.is_some() && now != *seen {
+        return Err(Fault::new(
+            "the file was changed by something else since the lesson was opened, and is left as it is",
+        )
+        .at(&path)
+        .help("move it aside and save again to keep yours, or leave without saving and open the lesson again"));
+    }
     write_whole(&path, text.as_bytes())?;
+    *seen = Some(new);
     Ok(Some(path))
 }
