@@ -99,6 +99,9 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     if clip.timing.tier("shapes").is_some() && !clip.syllables.is_empty() {
         found.push(odd("its tier `shapes` moves the mouth; syllables' times and readings do not".into()));
     }
+    if clip.timing.tier("phones").is_some() {
+        found.push(odd("its tier `phones` is kept, and not used by this version".into()));
+    }
     let unread = clip.syllables.iter().filter(|s| s.lang == Lang::Zh && s.pinyin.is_empty()).count();
     if unread > 0 {
         found.push(odd(format!("{} without a known reading: write it as 字{{zi4}}", counted(unread, "character"))));

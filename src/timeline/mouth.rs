@@ -11,6 +11,9 @@ use crate::pose::{MouthPose, MouthPreset, MouthShape};
 /// The longest way from one shape to the next, in seconds. Lips need 60 to 120 ms between targets.
 const TRAVEL: f64 = 0.10;
 
+/// The longest way from vowel to vowel within a syllable: a glide such as a-u is one slow movement.
+const GLIDE: f64 = 0.18;
+
 /// Seconds before the first sound at which a resting mouth starts to move, and after the last at which it rests.
 const PREPARE: f64 = 0.12;
 const RELEASE: f64 = 0.18;
@@ -214,7 +217,8 @@ fn of_speech(spoken: &[Spoken], frame: f64, preset: MouthPreset) -> Vec<MouthKey
                 (None, _) => syllable.end,
             };
             let slot = leaves - start;
-            let travel = TRAVEL.min(0.6 * slot.max(0.0));
+            let glides = syllable.shapes.get(i + 1).is_some_and(|(_, to)| !to.closes() && !shape.closes());
+            let travel = if glides { GLIDE } else { TRAVEL }.min(0.6 * slot.max(0.0));
             let last = i + 1 == syllable.shapes.len() && next.is_none_or(|n| n.start - syllable.end > BREATH);
             let until = if shape.closes() {
                 start + CLOSURE.min(0.4 * slot).max(frame)

@@ -115,7 +115,7 @@ impl Mouth {
         let upper = (mouth.upper * parting - BITE * mouth.bite) * self.unit - kept;
         let lower = mouth.lower * parting * self.unit + kept;
         // A mouth that the emotion has narrowed already gives way less to a rounded vowel.
-        let narrowing = mouth.corner_in * self.width * (2.0 * frame.half / self.width).min(1.0);
+        let narrowing = mouth.corner_in * self.width * (2.0 * frame.half / self.width).min(1.0).powi(2);
         let half = (frame.half - narrowing).max(NARROWEST * self.width);
         let narrowed = ((1.0 - 2.0 * half / self.width) / 0.34).clamp(0.0, 1.0);
         let gap = (lower - upper).max(0.0);
