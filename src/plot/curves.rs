@@ -82,7 +82,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// The letter of each emotion over each of its hills, where one rises enough to be looked for.
 pub(super) fn peak_letters(axes: &Axes, samples: &Samples) -> Vec<Item> {
-    let mut items = Vec::new();
+    let (mut items, mut taken): (Vec<Item>, Vec<Point>) = (Vec::new(), Vec::new());
     for emotion in Emotion::ALL {
         let mut start = 0;
         while start < samples.len() {
@@ -93,7 +93,12 @@ pub(super) fn peak_letters(axes: &Axes, samples: &Samples) -> Vec<Item> {
             // Clear of the axis's name in the corner.
             let middle = axes.x(samples[start + length / 2].0).max(axes.area.x0 + 4.0 * TEXT);
             if is_hill && level > 0.08 {
-                let at = Point::new(middle, axes.y(level) - 6.0);
+                let mut at = Point::new(middle, axes.y(level) - 6.0);
+                // Two emotions on one level share a hill: their letters stand side by side.
+                while taken.iter().any(|t| (t.x - at.x).abs() < TEXT && (t.y - at.y).abs() < TEXT) {
+                    at.x += TEXT;
+                }
+                taken.push(at);
                 let letter = emotion.letter().to_string();
                 items.push(Item::text(at, TEXT + 1.0, Anchor::Middle, colour_of(emotion), letter));
             }
