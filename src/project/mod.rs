@@ -9,6 +9,7 @@ mod clip;
 mod create;
 mod history;
 mod journal;
+mod label;
 mod lesson;
 mod manifest;
 mod save;

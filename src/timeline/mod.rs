@@ -6,10 +6,12 @@
 //! Built, it only answers: `pose(t)` is a pure function. Time is in seconds; frames appear only in [`Timeline::frames`].
 
 mod blink;
+mod coarticulation;
 mod ease;
 mod mouth;
 mod ratios;
 mod score;
+mod score_file;
 mod smooth;
 
 pub use blink::Blink;

@@ -6,6 +6,7 @@
 mod draw;
 mod eye;
 mod file;
+mod lips;
 mod mouth;
 
 use std::collections::BTreeMap;
