@@ -71,17 +71,20 @@ fn the_six_corners_of_lids_and_mouth_meet_exactly_in_every_pose() {
     }
 }
 
-/// The strokes of one line of a drawing.
+/// The strokes of a lip of a drawing.
 fn strokes(drawing: &Drawing, name: &str) -> Vec<Ribbon> {
-    drawing
-        .layers
-        .iter()
-        .flat_map(|l| &l.items)
-        .find_map(|item| match item {
-            Item::Ink(ink) if ink.name == name => Some(ink.strokes.clone()),
+    let items = drawing.layers.iter().flat_map(|l| &l.items);
+    let lips = items.filter_map(|item| match item {
+        Item::Group(group) if group.name == name => Some(&group.items),
+        _ => None,
+    });
+    lips.flatten()
+        .filter_map(|item| match item {
+            Item::Ink(ink) => Some(ink.strokes.clone()),
             _ => None,
         })
-        .unwrap_or_default()
+        .flatten()
+        .collect()
 }
 
 #[test]
@@ -173,6 +176,17 @@ fn closed_lids_hide_the_iris_and_a_look_aside_moves_it() {
     pose.lids.left = 0.0;
     pose.lids.right = 0.0;
     assert!(!has_iris(&pose));
+}
+
+#[test]
+fn an_svg_has_every_line_of_table_2_by_its_name() {
+    let figure = LineFigure::built_in("line").unwrap();
+    for pose in poses() {
+        let svg = lianpu::render::to_svg(&figure.draw(&pose), 640, 360);
+        for name in figure.line_names() {
+            assert!(svg.contains(&format!("<path id=\"{name}\" d=\"M")), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -9,7 +9,8 @@ use super::{Line, LineFigure};
 use crate::disk::{Fault, Result};
 use crate::drawing::Item;
 use crate::geometry::{
-    BezPath, CubicBez, Ellipse, Knot, ParamCurve, ParamCurveDeriv, Point, Rect, Shape, Vec2, hermite, lerp,
+    Affine, BezPath, CubicBez, Ellipse, Knot, ParamCurve, ParamCurveDeriv, Point, Rect, Ribbon, Shape, Vec2, hermite,
+    lerp,
 };
 use crate::pose::MouthPose;
 
@@ -227,8 +228,12 @@ impl Mouth {
                 items.extend(self.inside(figure, &top, &bottom, (above, below), mouth));
             }
         }
-        items.push(Item::ink("upper-lip", upper, figure.colours.ink));
-        items.push(Item::ink("lower-lip", lower, figure.colours.ink));
+        for (name, lines, strokes) in [("upper-lip", &self.upper, upper), ("lower-lip", &self.lower, lower)] {
+            let ink = |(line, stroke): (&usize, Ribbon)| {
+                Item::ink(&figure.lines[*line].name, vec![stroke], figure.colours.ink)
+            };
+            items.push(Item::moved(name, Affine::IDENTITY, lines.iter().zip(strokes).map(ink).collect()));
+        }
         items
     }
 
