@@ -189,6 +189,14 @@ fn a_shared_boundary_moves_both_syllables_and_a_gap_closes_before_it_does() {
 }
 
 #[test]
+fn a_gap_opens_between_two_touching_syllables_and_moves_only_the_chosen_one() {
+    let mut bench = Bench::new(Some(TOUCHING), &[]);
+    assert_eq!(bench.keys("g g").times(), [(0.3, 0.73), (0.75, 1.28)]);
+    assert_eq!(bench.keys("u u Tab Tab G").times(), [(0.3, 0.75), (0.76, 1.28)]);
+    assert_eq!(bench.keys("[ [").times(), [(0.3, 0.74), (0.74, 1.28)], "a gap closes before both move");
+}
+
+#[test]
 fn no_boundary_leaves_the_clip_or_makes_a_syllable_too_short() {
     let mut bench = Bench::new(Some(TIMES), &[]);
     bench.keys("{ { { { { { { { { {");
@@ -356,7 +364,9 @@ fn an_export_shows_how_far_it_is_and_can_be_stopped() {
         Ok("never".into())
     });
     let mut bench = Bench::with(Some(TIMES), &[], exporter);
-    bench.keys("] e Ctrl-u 'png, srt'");
+    bench.keys("] e 'png jpg' Enter");
+    assert!(bench.screen(80, 24).contains("`jpg` is no format: svg png"), "a faulty word keeps the prompt open");
+    bench.keys("Ctrl-u 'png srt'");
     bench.studio.key("Enter");
     assert!(!bench.studio.state.is_unsaved(), "what is exported is what is on the screen");
     let report = bench.studio.reports().recv_timeout(Duration::from_secs(5)).unwrap();

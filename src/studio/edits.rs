@@ -14,8 +14,10 @@ use crate::timeline::{Key, KeyValue, Track};
 /// Carries out an edit or asks for what it needs; whether the action was one.
 pub(super) fn execute(state: &mut State, action: Action) -> bool {
     match action {
-        Action::Start(by) => nudge(state, by, boundary::Side::Start),
-        Action::End(by) => nudge(state, by, boundary::Side::End),
+        Action::Start(by) => nudge(state, by, (boundary::Side::Start, false)),
+        Action::End(by) => nudge(state, by, (boundary::Side::End, false)),
+        Action::Gap(-1) => nudge(state, Nudge::Centis(1), (boundary::Side::Start, true)),
+        Action::Gap(_) => nudge(state, Nudge::Centis(-1), (boundary::Side::End, true)),
         Action::Reading => ask_reading(state),
         Action::Edit => edit(state),
         Action::Add => add(state),
@@ -70,7 +72,7 @@ pub(super) fn retrace(state: &mut State, action: Action) {
     }
 }
 
-fn nudge(state: &mut State, by: Nudge, side: boundary::Side) {
+fn nudge(state: &mut State, by: Nudge, side: (boundary::Side, bool)) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
     let Some(syllable) = editor.syllable else {
         state.refuse("this clip has no syllables: write its script.txt");
@@ -96,7 +98,8 @@ fn prompt(state: &mut State, purpose: Purpose, title: String, help: &'static str
         state.refuse(format!("the lesson cannot be changed: {why}"));
         return;
     }
-    state.overlays.push(Overlay::Prompt(Prompt { purpose, title, help, line: Line::new(text), fault: None }));
+    let line = Line::new(text);
+    state.overlays.push(Overlay::Prompt(Prompt { purpose, title, help: help.into(), line, fault: None }));
 }
 
 fn ask_reading(state: &mut State) {

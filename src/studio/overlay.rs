@@ -1,5 +1,6 @@
 //! What lies on top of a screen: help, a line to type, a question, a running export. The top one takes the keys.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -52,7 +53,7 @@ pub struct Prompt {
     /// The question.
     pub title: String,
     /// What may be typed.
-    pub help: &'static str,
+    pub help: Cow<'static, str>,
     /// What has been typed.
     pub line: Line,
     /// What was wrong with it, after it was accepted once.

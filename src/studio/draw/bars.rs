@@ -19,7 +19,7 @@ const WIDEST: u16 = 50;
 const ROOMY: u16 = 124;
 
 pub(super) fn panel(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Clip, colours: Colours) {
-    let left = Rect { width: area.width.min(78), ..area };
+    let left = Rect { width: area.width.min(if area.width >= ROOMY { 66 } else { 78 }), ..area };
     ratios(buffer, left, editor, colours);
     let mut y = area.y + 8.min(area.height);
     for (text, style) in lines(editor, clip, left.width, colours) {
@@ -30,9 +30,10 @@ pub(super) fn panel(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Cli
     }
     if area.width >= ROOMY {
         let keys = Rect { x: left.right() + 3, width: area.right() - left.right() - 3, ..area };
+        let widest = help_of(Place::Timeline).map(|(names, _)| cells(&names)).max().unwrap_or(0);
         for ((names, help), y) in help_of(Place::Timeline).zip(keys.y..keys.bottom()) {
-            put(buffer, keys.x, y, 14, &names, BOLD);
-            put_short(buffer, keys.x + 15, y, keys.width.saturating_sub(15), help, DIM);
+            put(buffer, keys.x, y, widest, &names, BOLD);
+            put_short(buffer, keys.x + widest + 2, y, keys.width.saturating_sub(widest + 2), help, DIM);
         }
     }
 }

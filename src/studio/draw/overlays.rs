@@ -74,7 +74,7 @@ pub(in crate::studio) fn help(buffer: &mut Buffer, area: Rect, of: Place, scroll
 
 /// A line to type; where its caret stands.
 fn prompt(buffer: &mut Buffer, area: Rect, prompt: &Prompt, state: &State) -> Position {
-    let below = prompt.fault.as_deref().unwrap_or(prompt.help);
+    let below = prompt.fault.as_deref().unwrap_or(&prompt.help);
     let width = area.width.saturating_sub(8).min(70);
     let lines = folded(below, width);
     let inside = boxed(buffer, area, width, 2 + lines.len() as u16, &prompt.title);
