@@ -216,10 +216,12 @@ fn a_reading_is_checked_and_written_as_the_label_and_empty_gives_it_back_to_the_
     bench.keys("Ctrl-u 'hào' Enter");
     let clip = bench.studio.state.clip().unwrap();
     assert_eq!((clip.intervals()[1].label.as_str(), clip.syllables[1].pinyin.as_str()), ("好{hao4}", "hao4"));
+    bench.keys("r Ctrl-u 'hai' Enter");
+    assert!(bench.message().contains("read hai, neutral tone or no tone given"), "{}", bench.message());
     bench.keys("r Ctrl-u Enter");
     let clip = bench.studio.state.clip().unwrap();
     assert_eq!((clip.intervals()[1].label.as_str(), clip.syllables[1].pinyin.as_str()), ("好", "hao3"));
-    bench.keys("u u");
+    bench.keys("u u u");
     assert_eq!(bench.studio.state.clip().unwrap().intervals()[1].label, "hao3");
 }
 
@@ -279,6 +281,32 @@ fn a_stretch_of_the_record_is_marked_and_changed() {
 }
 
 #[test]
+fn an_edited_stretch_is_told_under_the_cursor_and_enter_changes_it_as_one_change() {
+    let rows: String = (0..40).map(|i| format!("{i},{:.2},0.5,0.5,0,0,0,0,0,1\n", f64::from(i) * 0.04)).collect();
+    let record = format!("frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n{rows}");
+    let mut bench = Bench::new(Some(TIMES), &[("ratios.csv", &record)]);
+    bench.keys("Tab v Tab v 'happy *0.5' Enter Left j j");
+    assert!(bench.screen(80, 24).contains("edit 0.30 to 0.77 s: happy *0.5"), "{}", bench.screen(80, 24));
+    bench.keys("Enter");
+    assert!(bench.screen(80, 24).contains("> happy *0.5"));
+    bench.keys("'happy *0.2' Enter");
+    let scales =
+        |b: &Bench| -> Vec<f64> { b.studio.state.clip().unwrap().score.ranges.iter().map(|r| r.scale[1]).collect() };
+    assert_eq!(scales(&bench), [0.2]);
+    assert_eq!(scales(bench.keys("u")), [0.5]);
+}
+
+#[test]
+fn the_first_emotion_key_says_that_it_colours_what_came_before() {
+    let mut bench = Bench::new(Some(TIMES), &[]);
+    bench.keys("Tab j j a 'angry' Enter");
+    assert!(bench.message().contains("from the start too"), "{}", bench.message());
+    assert!(bench.screen(80, 24).contains("otherwise"), "a long message takes two rows");
+    bench.keys("Home a 'neutral' Enter");
+    assert!(!bench.message().contains("from the start too"));
+}
+
+#[test]
 fn saving_writes_what_was_edited_and_the_lesson_reads_back_so() {
     let mut bench = Bench::new(Some(TIMES), &[]);
     bench.keys("] j j a 'happy' Enter");
@@ -289,6 +317,31 @@ fn saving_writes_what_was_edited_and_the_lesson_reads_back_so() {
     let read = Lesson::read(&bench.dir.path().join("nihao")).unwrap();
     assert!((read.clips[0].intervals()[0].start - 0.31).abs() < 1e-9);
     assert_eq!(read.clips[0].score.keys.len(), 1);
+}
+
+#[test]
+fn the_foot_offers_what_the_lane_is_for_and_saving_always() {
+    let mut bench = Bench::new(Some(TIMES), &[]);
+    let foot = |b: &mut Bench, width| b.screen(width, 24).lines().last().unwrap_or_default().to_owned();
+    let said = foot(&mut bench, 80);
+    for hint in ["Space play", "↑↓ lane", "[] start", ",. end", "r read", "u undo", "s save", "? help", "q back"] {
+        assert!(said.contains(hint), "{hint}: {said}");
+    }
+    bench.keys("j");
+    let keys = foot(&mut bench, 80);
+    for hint in ["Space play", "a add", "Enter change", "x delete", "u undo", "s save", "? help", "q back"] {
+        assert!(keys.contains(hint), "{hint}: {keys}");
+    }
+    assert!(foot(&mut bench, 140).contains("zoom") && foot(&mut bench, 60).contains("s save"));
+}
+
+#[test]
+fn a_clip_that_is_opened_again_is_where_it_was_left() {
+    let mut bench = Bench::new(Some(TIMES), &[SCORE]);
+    bench.keys("Tab Tab + j j");
+    let (there, screen) = (bench.cursor(), bench.screen(80, 24));
+    bench.keys("q Enter");
+    assert_eq!((bench.cursor(), bench.screen(80, 24)), (there, screen));
 }
 
 #[test]
@@ -333,6 +386,7 @@ fn playing_shows_frames_by_the_clock_and_says_once_that_it_is_silent() {
     assert_eq!(bench.cursor(), 0.56);
     assert!(bench.studio.advance(9.0));
     assert!(bench.studio.beat().is_none() && (bench.cursor() - 1.56).abs() < 1e-9);
+    assert_eq!(bench.message(), "", "what is said of playing ends with it");
     bench.keys("Space");
     assert_eq!((bench.message().as_str(), bench.studio.beat().is_some()), ("", true));
     bench.keys("l");
@@ -388,6 +442,7 @@ fn a_damaged_lesson_shows_what_is_wrong_and_where() {
     bench.keys("Enter Enter Enter s e u");
     let screen = bench.screen(80, 24);
     assert!(screen.contains("it does not open") && screen.contains("score.toml:2"), "{screen}");
+    assert!(!screen.contains("s save") && !screen.contains("e export"), "{screen}");
 }
 
 #[test]
@@ -415,6 +470,32 @@ fn a_terminal_that_is_too_small_is_told_so_and_none_is_too_small_to_draw_on() {
             bench.screen(width, height);
         }
     }
+}
+
+#[test]
+fn where_nothing_can_be_seen_no_key_but_quitting_does_anything_and_changes_wait_in_the_journal() {
+    let mut bench = Bench::new(Some(TIMES), &[]);
+    bench.keys("]");
+    let text = bench.screen(30, 10).replace('\n', " ");
+    assert!(text.contains("too small") && text.contains("Ctrl-c quits"), "{text}");
+    bench.keys("] q x");
+    assert!((bench.times()[0].0 - 0.31).abs() < 1e-9 && bench.studio.state.editor.is_some());
+    bench.keys("Ctrl-c");
+    assert!(bench.studio.state.leaving);
+    let Bench { studio, dir } = bench;
+    drop(studio);
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let mut bench = Bench { studio, dir };
+    assert!(bench.keys("Enter").message().contains("brought back 1 unsaved change from last time"));
+}
+
+#[test]
+fn a_low_terminal_shows_time_and_syllable_and_the_ratios_that_are_not_zero() {
+    let mut bench = Bench::new(Some(TIMES), &[SCORE]);
+    bench.keys("Tab");
+    insta::assert_snapshot!("timeline_60x20", bench.screen(60, 20));
+    bench.keys("j j Enter");
+    insta::assert_snapshot!("prompt_80x24", bench.screen(80, 24));
 }
 
 #[test]

@@ -37,6 +37,9 @@ pub enum Job {
     },
 }
 
+/// What is said when something is played for the first time. It stands only while it plays.
+pub(super) const SILENT: &str = "playing without sound: this version has none yet";
+
 /// Carries out an action.
 pub fn execute(state: &mut State, action: Action) -> Option<Job> {
     if !matches!(action, Action::Redraw) {
@@ -99,6 +102,9 @@ fn open_clip(state: &mut State) -> Option<Job> {
         }
     };
     let mut editor = Editor::new(state.lesson()?, chosen, figure);
+    if let Some(left) = state.open.as_ref()?.left.get(&chosen) {
+        editor.go_back(&state.lesson()?.clips[chosen], *left);
+    }
     let sound = state.lesson_mut()?.clips[chosen].sound.take();
     if sound.is_none() {
         editor.loudest = Some(0.0);
@@ -121,7 +127,11 @@ fn back(state: &mut State) {
             state.say("the mark is gone");
         }
         // The changes stay with the lesson; they are asked about when the lesson is left.
-        Place::Timeline => state.editor = None,
+        Place::Timeline => {
+            if let (Some(editor), Some(open)) = (state.editor.take(), &mut state.open) {
+                open.left.insert(editor.clip, editor.left());
+            }
+        }
         _ => leave(state, Action::Back),
     }
 }
@@ -338,7 +348,7 @@ fn on_timeline(state: &mut State, action: Action) {
                 editor.playing = Some(from);
                 if !state.said_silent {
                     state.said_silent = true;
-                    state.say("playing without sound: this version has none yet");
+                    state.say(SILENT);
                 }
             }
         },

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::export::Progress;
 use super::line::Line;
 use super::{Action, Place};
-use crate::timeline::{Key, Track};
+use crate::timeline::{Key, Range, Track};
 
 /// One thing that lies on top.
 #[derive(Debug)]
@@ -85,6 +85,8 @@ pub enum Purpose {
         from: f64,
         /// Seconds.
         to: f64,
+        /// The edit that it takes the place of, and its place among the edits.
+        old: Option<(usize, Range)>,
     },
     /// The formats of an export.
     Export,
