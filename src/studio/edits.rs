@@ -99,7 +99,7 @@ fn prompt(state: &mut State, purpose: Purpose, title: String, help: &'static str
         return;
     }
     let line = Line::new(text);
-    state.overlays.push(Overlay::Prompt(Prompt { purpose, title, help: help.into(), line, fault: None }));
+    state.overlays.push(Overlay::Prompt(Box::new(Prompt { purpose, title, help: help.into(), line, fault: None })));
 }
 
 fn ask_reading(state: &mut State) {

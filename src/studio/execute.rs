@@ -177,13 +177,13 @@ fn save(state: &mut State) {
 fn ask_export(state: &mut State) {
     let Some(lesson) = state.lesson() else { return };
     let what = state.clip().map_or_else(|| lesson.manifest.title.clone(), |c| c.entry.name.clone());
-    state.overlays.push(Overlay::Prompt(Prompt {
+    state.overlays.push(Overlay::Prompt(Box::new(Prompt {
         purpose: Purpose::Export,
         title: format!("Export {what} as"),
         help: format!("one or more of {}; what is unsaved is saved first", known_formats()).into(),
         line: Line::new("png"),
         fault: None,
-    }));
+    })));
 }
 
 /// What the things on top understand.

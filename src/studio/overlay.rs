@@ -20,7 +20,7 @@ pub enum Overlay {
         scrolled: usize,
     },
     /// A line to type.
-    Prompt(Prompt),
+    Prompt(Box<Prompt>),
     /// Leave with unsaved changes? What was asked for is done after the answer.
     Confirm(Action),
     /// An export under way.
