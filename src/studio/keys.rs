@@ -130,7 +130,7 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("<", End(Nudge::Frames(-1))), (">", End(Nudge::Frames(1)))], "", "the same by one frame"),
     row(&[Timeline], &[("G", Gap(-1)), ("g", Gap(1))], "", "10 ms of pause before, after the syllable"),
     row(&[Timeline], &[("r", Reading)], "read", "set how the syllable is read"),
-    row(&[Timeline], &[("Enter", Edit)], "change", "change the lane's key here, or the reading"),
+    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, edited stretch or reading here"),
     row(&[Timeline], &[("a", Add)], "add", "add a key to the lane"),
     row(&[Timeline], &[("(", MoveKey(-1)), (")", MoveKey(1))], "", "move the key one frame back, on"),
     row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),

@@ -99,7 +99,9 @@ pub(super) fn keys(buffer: &mut Buffer, row: Rect, lane: Option<Lane>, editor: &
     }
     // In one column the author's come first: they are shown where there is room for one alone.
     marks.sort_by_key(|m| (window.column(m.time, columns), !m.own));
-    if marks.is_empty() && lane.is_some_and(|l| l == editor.lane) {
+    // The waves of an edited stretch say more than that there are no keys beside it.
+    let is_waved = wanted(Track::Emotion) && !clip.score.ranges.is_empty();
+    if marks.is_empty() && !is_waved && lane.is_some_and(|l| l == editor.lane) {
         put(buffer, row.x, row.y, columns, "no keys yet: a adds one at the cursor", DIM);
     }
     let wanted: Vec<i32> = marks.iter().map(|m| window.column(m.time, columns)).collect();

@@ -101,8 +101,10 @@ fn facts(clip: &Clip) -> String {
     if clip.timing.guessed && clip.score.pins.len() < clip.syllables.len() {
         facts.push("guessed?".into());
     }
-    if !clip.score.keys.is_empty() {
-        facts.push(format!("{} keys", clip.score.keys.len()).replace("1 keys", "1 key"));
+    match clip.score.keys.len() {
+        0 => {}
+        1 => facts.push("1 key".into()),
+        many => facts.push(format!("{many} keys")),
     }
     facts.join(", ")
 }

@@ -21,10 +21,9 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         put(buffer, layout.said.x + 1, layout.said.y, columns - 1, &text, DIM);
         return;
     }
-    let column = |time| window.column(time, columns).clamp(0, i32::from(columns));
     let needs_all = |(s, i): (&crate::script::Syllable, &crate::timing::Interval)| {
-        let room = column(i.end) - column(i.start);
-        room <= 2 && room == i32::from(cells(&s.text))
+        let room = window.column(i.end, columns) - window.column(i.start, columns);
+        room <= 2 && room <= i32::from(cells(&s.text))
     };
     // A few boundaries among many would group syllables that do not belong together: it is all of them or none, and
     // then every second syllable is underlined.
