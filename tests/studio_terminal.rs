@@ -23,11 +23,15 @@ struct Terminal {
 
 impl Terminal {
     fn start(folder: &Path, width: u16, height: u16, more: &[(&str, &str)]) -> Self {
+        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_lianpu"));
+        command.arg(folder);
+        Self::of(command, width, height, more)
+    }
+
+    fn of(mut command: CommandBuilder, width: u16, height: u16, more: &[(&str, &str)]) -> Self {
         let pair = native_pty_system()
             .openpty(PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 })
             .unwrap();
-        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_lianpu"));
-        command.arg(folder);
         command.env("TERM", "xterm-256color");
         command.env("COLORTERM", "truecolor");
         command.env_remove("NO_COLOR");
@@ -243,6 +247,23 @@ fn a_signal_gives_the_terminal_back_and_the_changes_wait_in_the_journal() {
     terminal.until("the changes", |s| s.contains("2 unsaved changes"));
     terminal.hang_up();
     assert!(terminal.ends(), "a program without its terminal ends instead of spinning");
+}
+
+#[test]
+fn a_record_from_a_pipe_is_played_and_keys_still_come_from_the_terminal() {
+    let dir = lessons();
+    let rows: String = (0..40).map(|i| format!("{i},{:.2},1,0,0,0,0,0,0,1\n", f64::from(i) * 0.04)).collect();
+    let record = format!("frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n{rows}");
+    std::fs::write(dir.path().join("ratios.csv"), record).unwrap();
+    let mut command = CommandBuilder::new("sh");
+    command.cwd(dir.path());
+    command.args(["-c", &format!("cat ratios.csv | '{}' play --ratios -", env!("CARGO_BIN_EXE_lianpu"))]);
+    let mut terminal = Terminal::of(command, 80, 24, &[]);
+    terminal.until("the player", |s| s.contains("of 1.60 s") || s.contains("of 1.56 s"));
+    terminal.send(" ");
+    terminal.until("it stopped", |s| s.contains("stopped"));
+    terminal.send("q");
+    assert!(terminal.ends() && terminal.is_given_back());
 }
 
 #[test]

@@ -43,6 +43,8 @@ pub enum Action {
     Start(Nudge),
     /// Move the end of the syllable.
     End(Nudge),
+    /// Open a gap before (-1) or after (1) the syllable: its own edge moves, and no neighbour.
+    Gap(i32),
     /// Change what is under the cursor: a key's value, or the syllable's reading.
     Edit,
     /// Change the syllable's reading.

@@ -17,11 +17,17 @@ pub(super) enum Side {
 }
 
 /// The change that moves a boundary of a syllable by so many seconds, as far as there is room, and vouches for every
-/// syllable that it touches.
+/// syllable that it touches. `alone` leaves a neighbour that touches where it is: a gap opens between the two.
 ///
 /// # Errors
 /// Why it cannot be moved, in one line.
-pub(super) fn moved(clip: &Clip, number: usize, syllable: usize, side: Side, by: f64) -> Result<Change, String> {
+pub(super) fn moved(
+    clip: &Clip,
+    number: usize,
+    syllable: usize,
+    (side, alone): (Side, bool),
+    by: f64,
+) -> Result<Change, String> {
     let times: Vec<(f64, f64)> = clip.intervals().iter().map(|i| (i.start, i.end)).collect();
     let Some(&own) = times.get(syllable) else { return Err("no syllable is selected".into()) };
     let neighbour = match side {
@@ -31,9 +37,9 @@ pub(super) fn moved(clip: &Clip, number: usize, syllable: usize, side: Side, by:
     let other = neighbour.and_then(|n| times.get(n).copied());
     let old = if side == Side::Start { own.0 } else { own.1 };
     let (low, high, shared) = match (side, other) {
-        (Side::Start, Some(o)) if own.0 - o.1 < TOUCHING => (o.0 + SHORTEST, own.1 - SHORTEST, true),
+        (Side::Start, Some(o)) if !alone && own.0 - o.1 < TOUCHING => (o.0 + SHORTEST, own.1 - SHORTEST, true),
         (Side::Start, o) => (o.map_or(0.0, |o| o.1), own.1 - SHORTEST, false),
-        (Side::End, Some(o)) if o.0 - own.1 < TOUCHING => (own.0 + SHORTEST, o.1 - SHORTEST, true),
+        (Side::End, Some(o)) if !alone && o.0 - own.1 < TOUCHING => (own.0 + SHORTEST, o.1 - SHORTEST, true),
         (Side::End, o) => (own.0 + SHORTEST, o.map_or(clip.duration(), |o| o.0), false),
     };
     // A tenth of a millisecond is finer than any ear, and keeps steps from gathering rounding.

@@ -37,6 +37,15 @@ pub struct Editor {
     pub loudest: Option<f32>,
 }
 
+/// Where the author was on a clip that she has left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Left {
+    cursor: f64,
+    window: Window,
+    lane: Lane,
+    syllable: Option<usize>,
+}
+
 /// A key on a lane, whoever set it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LaneKey {
@@ -77,6 +86,20 @@ impl Editor {
         };
         editor.rebuild(lesson);
         editor
+    }
+
+    /// Where the author is, to come back to.
+    #[must_use]
+    pub fn left(&self) -> Left {
+        Left { cursor: self.cursor, window: self.window, lane: self.lane, syllable: self.syllable }
+    }
+
+    /// Goes back to where the author was.
+    pub fn go_back(&mut self, clip: &Clip, left: Left) {
+        self.lane = left.lane;
+        self.window = left.window;
+        self.go(clip, left.cursor);
+        self.syllable = left.syllable.filter(|s| *s < clip.syllables.len()).or(self.syllable);
     }
 
     /// Builds the timeline anew, after the lesson has changed.

@@ -7,15 +7,17 @@ use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
 use super::{Lane, boundary, typed};
-use crate::project::{Change, Edit};
+use crate::project::{Change, Clip, Edit};
 use crate::script::{Lang, System, reading};
-use crate::timeline::{Key, KeyValue, Track};
+use crate::timeline::{Key, KeyValue, Range, Track};
 
 /// Carries out an edit or asks for what it needs; whether the action was one.
 pub(super) fn execute(state: &mut State, action: Action) -> bool {
     match action {
-        Action::Start(by) => nudge(state, by, boundary::Side::Start),
-        Action::End(by) => nudge(state, by, boundary::Side::End),
+        Action::Start(by) => nudge(state, by, (boundary::Side::Start, false)),
+        Action::End(by) => nudge(state, by, (boundary::Side::End, false)),
+        Action::Gap(-1) => nudge(state, Nudge::Centis(1), (boundary::Side::Start, true)),
+        Action::Gap(_) => nudge(state, Nudge::Centis(-1), (boundary::Side::End, true)),
         Action::Reading => ask_reading(state),
         Action::Edit => edit(state),
         Action::Add => add(state),
@@ -70,7 +72,7 @@ pub(super) fn retrace(state: &mut State, action: Action) {
     }
 }
 
-fn nudge(state: &mut State, by: Nudge, side: boundary::Side) {
+fn nudge(state: &mut State, by: Nudge, side: (boundary::Side, bool)) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
     let Some(syllable) = editor.syllable else {
         state.refuse("this clip has no syllables: write its script.txt");
@@ -96,7 +98,8 @@ fn prompt(state: &mut State, purpose: Purpose, title: String, help: &'static str
         state.refuse(format!("the lesson cannot be changed: {why}"));
         return;
     }
-    state.overlays.push(Overlay::Prompt(Prompt { purpose, title, help, line: Line::new(text), fault: None }));
+    let line = Line::new(text);
+    state.overlays.push(Overlay::Prompt(Box::new(Prompt { purpose, title, help: help.into(), line, fault: None })));
 }
 
 fn ask_reading(state: &mut State) {
@@ -106,7 +109,10 @@ fn ask_reading(state: &mut State) {
         return;
     };
     if syllable.lang == Lang::En {
-        state.refuse(format!("`{}` is English: its sounds come from the dictionary", syllable.text));
+        state.refuse(format!(
+            "`{}` is English: its sounds come from the dictionary; set its mouth with keys on the mouth lane",
+            syllable.text
+        ));
         return;
     }
     let (title, text) = (format!("How is {} read?", syllable.text), syllable.pinyin.clone());
@@ -115,11 +121,19 @@ fn ask_reading(state: &mut State) {
 
 const READING_HELP: &str = "one syllable: hang2, háng or ㄏㄤˊ; empty: as the dictionary has it";
 
-/// The key at the cursor where there is one, else the reading, else a new key.
+/// The key at the cursor where there is one, else the reading or the edit of a stretch, else a new key.
 fn edit(state: &mut State) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
     match (editor.lane, editor.key_here(clip)) {
         (Lane::Syllables, _) => ask_reading(state),
+        (Lane::Keys(Track::Emotion), None) => match range_here(editor, clip) {
+            Some((at, old)) => {
+                let title = format!("The edit from {:.2} to {:.2} s", old.from, old.to);
+                let purpose = Purpose::Range { from: old.from, to: old.to, old: Some((at, old)) };
+                prompt(state, purpose, title, typed::RANGE_HELP, typed::range_text(&old));
+            }
+            None => ask_key(state, None),
+        },
         (_, key) => ask_key(state, key),
     }
 }
@@ -147,7 +161,7 @@ fn ask_key(state: &mut State, old: Option<LaneKey>) {
     };
     let title = match old {
         Some(LaneKey::Own(_)) => format!("The {} key at {time:.3} s", editor.lane.name()),
-        Some(LaneKey::Spoken(_)) => format!("Take over the mouth at {time:.3} s"),
+        Some(LaneKey::Spoken(_)) => format!("Change the mouth that speech has at {time:.3} s"),
         None => format!("A new {} key at {time:.3} s", editor.lane.name()),
     };
     prompt(state, Purpose::Key { track, time, old: own, replaces }, title, typed::key_help(track), text);
@@ -174,15 +188,21 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
             let key = Key { replaces, ..typed::key(track, text, time)? };
             let mut edits: Vec<Edit> = old.map(|key| Edit::RemoveKey { clip: number, key }).into_iter().collect();
             edits.push(Edit::AddKey { clip: number, key });
-            let label = format!("{} {} at {time:.2} s", track_name(track), typed::key_text(&key));
+            let mut label = format!("{} {} at {time:.2} s", track_name(track), typed::key_text(&key));
+            // Before its first key a track has that key's value: an emotion meant for here colours all that came before.
+            if track == Track::Emotion && time > 1e-6 && state.clip().is_some_and(is_first_emotion) {
+                label.push_str(", and from the start too; add `neutral` at 0 to begin otherwise");
+            }
             change(state, Change { label, edits });
             Ok(())
         }
-        Purpose::Range { from, to } => {
+        Purpose::Range { from, to, old } => {
             let range = typed::range(text, from, to)?;
-            let at = state.clip().map_or(0, |c| c.score.ranges.len());
+            let at = old.map_or_else(|| state.clip().map_or(0, |c| c.score.ranges.len()), |(at, _)| at);
             let label = format!("{} from {from:.2} to {to:.2} s", typed::range_text(&range));
-            if change(state, Change::one(label, Edit::AddRange { clip: number, at, range }))
+            let removed = old.map(|(at, range)| Edit::RemoveRange { clip: number, at, range });
+            let edits = removed.into_iter().chain([Edit::AddRange { clip: number, at, range }]).collect();
+            if change(state, Change { label, edits })
                 && let Some(editor) = &mut state.editor
             {
                 editor.mark = None;
@@ -191,6 +211,11 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
         }
         Purpose::Export => Ok(()),
     }
+}
+
+/// Whether an emotion key would be the clip's first, with no record to say what was before it.
+fn is_first_emotion(clip: &Clip) -> bool {
+    clip.record.is_none() && clip.score.keys.iter().all(|k| k.value.track() != Track::Emotion)
 }
 
 fn take_reading(state: &mut State, number: usize, index: usize, text: &str) -> Result<(), String> {
@@ -205,7 +230,8 @@ fn take_reading(state: &mut State, number: usize, index: usize, text: &str) -> R
                     "`{text}` is no one syllable of Mandarin: type Pinyin with a tone, as hang2, or Zhuyin, as ㄏㄤˊ"
                 )
             })?;
-            (format!("{written}{{{read}}}"), format!("{written} read {read}"))
+            let tone = if read.tone().is_none() { ", neutral tone or no tone given" } else { "" };
+            (format!("{written}{{{read}}}"), format!("{written} read {read}{tone}"))
         }
     };
     if after == before {
@@ -290,17 +316,15 @@ fn mark(state: &mut State) {
         Some(mark) => {
             let (from, to) = (mark.min(editor.cursor), mark.max(editor.cursor));
             let title = format!("Change the ratios from {from:.2} to {to:.2} s");
-            prompt(state, Purpose::Range { from, to }, title, typed::RANGE_HELP, String::new());
+            prompt(state, Purpose::Range { from, to, old: None }, title, typed::RANGE_HELP, String::new());
         }
     }
 }
 
 fn delete_range(state: &mut State) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
-    let holds = |r: &crate::timeline::Range| (r.from - 1e-9..=r.to + 1e-9).contains(&editor.cursor);
-    match clip.score.ranges.iter().rposition(holds) {
-        Some(at) => {
-            let range = clip.score.ranges[at];
+    match range_here(editor, clip) {
+        Some((at, range)) => {
             let label = format!("{} from {:.2} s deleted", typed::range_text(&range), range.from);
             change(state, Change::one(label, Edit::RemoveRange { clip: editor.clip, at, range }));
         }
@@ -308,12 +332,24 @@ fn delete_range(state: &mut State) {
     }
 }
 
+/// The last edit of a stretch that the cursor is in, with its place among the edits.
+fn range_here(editor: &Editor, clip: &Clip) -> Option<(usize, Range)> {
+    let holds = |r: &Range| (r.from - 1e-9..=r.to + 1e-9).contains(&editor.cursor);
+    clip.score.ranges.iter().rposition(holds).map(|at| (at, clip.score.ranges[at]))
+}
+
+/// What is said of the edited stretch at the cursor, for the panel beside the face.
+pub(super) fn range_line(editor: &Editor, clip: &Clip) -> Option<String> {
+    let (_, range) = range_here(editor, clip)?;
+    Some(format!("edit {:.2} to {:.2} s: {}", range.from, range.to, typed::range_text(&range)))
+}
+
 const fn track_name(track: Track) -> &'static str {
     Lane::Keys(track).name()
 }
 
 /// What is said of the key at the cursor, for the panel beside the face.
-pub(super) fn key_line(editor: &Editor, clip: &crate::project::Clip) -> Option<String> {
+pub(super) fn key_line(editor: &Editor, clip: &Clip) -> Option<String> {
     match editor.key_here(clip)? {
         LaneKey::Own(key) => Some(format!("{} key: {}", editor.lane.name(), typed::key_text(&key))),
         LaneKey::Spoken(key) => {

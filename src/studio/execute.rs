@@ -11,6 +11,7 @@ use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
 use super::{Action, Place, edits};
+use crate::export::Format;
 use crate::speech::Sound;
 
 /// Work that takes long enough to be done elsewhere.
@@ -35,6 +36,9 @@ pub enum Job {
         cancel: Arc<AtomicBool>,
     },
 }
+
+/// What is said when something is played for the first time. It stands only while it plays.
+pub(super) const SILENT: &str = "playing without sound: this version has none yet";
 
 /// Carries out an action.
 pub fn execute(state: &mut State, action: Action) -> Option<Job> {
@@ -98,6 +102,9 @@ fn open_clip(state: &mut State) -> Option<Job> {
         }
     };
     let mut editor = Editor::new(state.lesson()?, chosen, figure);
+    if let Some(left) = state.open.as_ref()?.left.get(&chosen) {
+        editor.go_back(&state.lesson()?.clips[chosen], *left);
+    }
     let sound = state.lesson_mut()?.clips[chosen].sound.take();
     if sound.is_none() {
         editor.loudest = Some(0.0);
@@ -120,7 +127,11 @@ fn back(state: &mut State) {
             state.say("the mark is gone");
         }
         // The changes stay with the lesson; they are asked about when the lesson is left.
-        Place::Timeline => state.editor = None,
+        Place::Timeline => {
+            if let (Some(editor), Some(open)) = (state.editor.take(), &mut state.open) {
+                open.left.insert(editor.clip, editor.left());
+            }
+        }
         _ => leave(state, Action::Back),
     }
 }
@@ -166,13 +177,13 @@ fn save(state: &mut State) {
 fn ask_export(state: &mut State) {
     let Some(lesson) = state.lesson() else { return };
     let what = state.clip().map_or_else(|| lesson.manifest.title.clone(), |c| c.entry.name.clone());
-    state.overlays.push(Overlay::Prompt(Prompt {
+    state.overlays.push(Overlay::Prompt(Box::new(Prompt {
         purpose: Purpose::Export,
         title: format!("Export {what} as"),
-        help: "formats as in `lianpu export --to`, such as png or png,srt; what is unsaved is saved first",
+        help: format!("one or more of {}; what is unsaved is saved first", known_formats()).into(),
         line: Line::new("png"),
         fault: None,
-    }));
+    })));
 }
 
 /// What the things on top understand.
@@ -229,7 +240,14 @@ fn on_top(state: &mut State, action: Action) -> Option<Job> {
 fn accept(state: &mut State) -> Option<Job> {
     let Some(Overlay::Prompt(mut prompt)) = state.overlays.pop() else { return None };
     if prompt.purpose == Purpose::Export {
-        return start_export(state, prompt.line.text());
+        return match formats(prompt.line.text()) {
+            Ok(formats) => start_export(state, formats),
+            Err(fault) => {
+                prompt.fault = Some(fault);
+                state.overlays.push(Overlay::Prompt(prompt));
+                None
+            }
+        };
     }
     if let Err(fault) = edits::take(state, prompt.purpose, prompt.line.text().trim()) {
         prompt.fault = Some(fault);
@@ -238,7 +256,27 @@ fn accept(state: &mut State) -> Option<Job> {
     None
 }
 
-fn start_export(state: &mut State, formats: &str) -> Option<Job> {
+fn known_formats() -> String {
+    Format::ALL.map(Format::name).join(" ")
+}
+
+/// The formats that were typed, with a comma between them; what is none is told while it can still be mended.
+fn formats(typed: &str) -> Result<String, String> {
+    let words: Vec<String> = typed
+        .split([' ', ',', '，', '、', ';'])
+        .filter(|word| !word.is_empty())
+        .map(|word| word.trim_start_matches('.').to_lowercase())
+        .collect();
+    if words.is_empty() {
+        return Err(format!("type one or more of {}", known_formats()));
+    }
+    match words.iter().find(|word| Format::ALL.iter().all(|format| format.name() != word.as_str())) {
+        Some(word) => Err(format!("`{word}` is no format: {}", known_formats())),
+        None => Ok(words.join(",")),
+    }
+}
+
+fn start_export(state: &mut State, formats: String) -> Option<Job> {
     if state.is_unsaved() {
         save(state);
         if state.is_unsaved() {
@@ -248,7 +286,7 @@ fn start_export(state: &mut State, formats: &str) -> Option<Job> {
     let request = ExportRequest {
         project: state.lesson()?.root.clone(),
         clip: state.clip().map(|c| c.entry.name.clone()),
-        formats: formats.split_whitespace().collect(),
+        formats,
     };
     let cancel = Arc::new(AtomicBool::new(false));
     state.overlays.push(Overlay::Export { progress: Progress::default(), cancel: Arc::clone(&cancel) });
@@ -310,7 +348,7 @@ fn on_timeline(state: &mut State, action: Action) {
                 editor.playing = Some(from);
                 if !state.said_silent {
                     state.said_silent = true;
-                    state.say("playing without sound: this version has none yet");
+                    state.say(SILENT);
                 }
             }
         },

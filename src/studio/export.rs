@@ -13,7 +13,7 @@ pub struct ExportRequest {
     pub project: PathBuf,
     /// The clip; none for all of them.
     pub clip: Option<String>,
-    /// The formats as typed, such as `png` or `png,srt`.
+    /// The formats as typed, with commas between them, such as `png` or `png,srt`.
     pub formats: String,
 }
 

@@ -92,7 +92,7 @@ pub const TABLE: &[Row] = &[
         "syllable",
         "next, previous syllable",
     ),
-    row(&[Timeline], &[("n", Key(1)), ("p", Key(-1))], "", "next, previous key on the lane"),
+    row(&[Timeline], &[("n", Key(1)), ("p", Key(-1))], "key", "next, previous key on the lane"),
     row(
         &[Timeline],
         &[("Up", Lane(-1)), ("Down", Lane(1)), ("k", Lane(-1)), ("j", Lane(1))],
@@ -118,21 +118,22 @@ pub const TABLE: &[Row] = &[
         &[Timeline],
         &[("[", Start(Nudge::Centis(-1))), ("]", Start(Nudge::Centis(1)))],
         "start",
-        "syllable's start 10 ms earlier, later",
+        "start 10 ms back, on (a touching neighbour follows)",
     ),
     row(&[Timeline], &[("{", Start(Nudge::Frames(-1))), ("}", Start(Nudge::Frames(1)))], "", "the same by one frame"),
     row(
         &[Timeline],
         &[(",", End(Nudge::Centis(-1))), (".", End(Nudge::Centis(1)))],
         "end",
-        "syllable's end 10 ms earlier, later",
+        "end 10 ms back, on (a touching neighbour follows)",
     ),
     row(&[Timeline], &[("<", End(Nudge::Frames(-1))), (">", End(Nudge::Frames(1)))], "", "the same by one frame"),
-    row(&[Timeline], &[("r", Reading)], "reading", "set how the syllable is read"),
-    row(&[Timeline], &[("Enter", Edit)], "", "change the lane's key here, or the reading"),
-    row(&[Timeline], &[("a", Add)], "add key", "add a key to the lane"),
+    row(&[Timeline], &[("G", Gap(-1)), ("g", Gap(1))], "", "10 ms of pause before, after the syllable"),
+    row(&[Timeline], &[("r", Reading)], "read", "set how the syllable is read"),
+    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, edited stretch or reading here"),
+    row(&[Timeline], &[("a", Add)], "add", "add a key to the lane"),
     row(&[Timeline], &[("(", MoveKey(-1)), (")", MoveKey(1))], "", "move the key one frame back, on"),
-    row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "", "delete the key"),
+    row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),
     row(&[Timeline], &[("v", Mark)], "", "mark a stretch: from here, to here"),
     row(&[Timeline], &[("X", DeleteRange)], "", "delete the edit of a stretch"),
     row(&[Timeline], &[("u", Undo), ("Ctrl-r", Redo)], "undo", "undo, redo"),
@@ -219,7 +220,7 @@ pub fn name_of(key: &KeyEvent) -> Option<String> {
 /// A key as it is shown: arrows as arrows.
 #[must_use]
 pub fn shown(key: &str) -> String {
-    const SIGNS: [(&str, &str); 9] = [
+    const SIGNS: [(&str, &str); 7] = [
         ("PageUp", "PgUp"),
         ("PageDown", "PgDn"),
         ("Left", "←"),
@@ -227,8 +228,6 @@ pub fn shown(key: &str) -> String {
         ("Up", "↑"),
         ("Down", "↓"),
         ("Delete", "Del"),
-        ("Shift", "S"),
-        ("Ctrl", "C"),
     ];
     let (held, key) = key.split_once('-').filter(|(_, key)| !key.is_empty()).unwrap_or(("", key));
     let sign = |key: &str| {
@@ -298,7 +297,7 @@ mod tests {
     #[test]
     fn the_table_for_the_readme_has_every_place_and_every_key() {
         let text = key_table_markdown();
-        assert!(text.contains("| `u` `C-r` | undo, redo |") && text.contains("**A running export**"), "{text}");
+        assert!(text.contains("| `u` `Ctrl-r` | undo, redo |") && text.contains("**A running export**"), "{text}");
         println!("{text}");
     }
 

@@ -72,7 +72,7 @@ impl Colours {
         }
     }
 
-    /// The style of what belongs to the author: magenta and red can be read on black and on white.
+    /// The style of what belongs to the author: magenta can be read on black and on white.
     #[must_use]
     pub fn accent(self) -> Style {
         match self {
@@ -81,9 +81,18 @@ impl Colours {
         }
     }
 
-    /// The style of what is wrong or guessed.
+    /// The style of what is not done yet: unsaved, guessed, odd.
     #[must_use]
     pub fn warning(self) -> Style {
+        match self {
+            Self::None => Style::new(),
+            _ => Style::new().fg(Color::Yellow),
+        }
+    }
+
+    /// The style of what is wrong, and of nothing else.
+    #[must_use]
+    pub fn fault(self) -> Style {
         match self {
             Self::None => Style::new(),
             _ => Style::new().fg(Color::Red),

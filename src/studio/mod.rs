@@ -28,7 +28,7 @@ mod window;
 mod work;
 
 pub use action::{Action, Nudge};
-pub use editor::{Editor, LaneKey};
+pub use editor::{Editor, LaneKey, Left};
 pub use export::{ExportRequest, Exporter, Progress};
 pub use keys::{Place, key_table_markdown};
 pub use lane::Lane;

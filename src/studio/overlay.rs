@@ -1,12 +1,13 @@
 //! What lies on top of a screen: help, a line to type, a question, a running export. The top one takes the keys.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::export::Progress;
 use super::line::Line;
 use super::{Action, Place};
-use crate::timeline::{Key, Track};
+use crate::timeline::{Key, Range, Track};
 
 /// One thing that lies on top.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub enum Overlay {
         scrolled: usize,
     },
     /// A line to type.
-    Prompt(Prompt),
+    Prompt(Box<Prompt>),
     /// Leave with unsaved changes? What was asked for is done after the answer.
     Confirm(Action),
     /// An export under way.
@@ -52,7 +53,7 @@ pub struct Prompt {
     /// The question.
     pub title: String,
     /// What may be typed.
-    pub help: &'static str,
+    pub help: Cow<'static, str>,
     /// What has been typed.
     pub line: Line,
     /// What was wrong with it, after it was accepted once.
@@ -84,6 +85,8 @@ pub enum Purpose {
         from: f64,
         /// Seconds.
         to: f64,
+        /// The edit that it takes the place of, and its place among the edits.
+        old: Option<(usize, Range)>,
     },
     /// The formats of an export.
     Export,

@@ -75,6 +75,8 @@ pub struct Player {
     help: bool,
     over: bool,
     redraw: bool,
+    /// Whether the last frame had no room for anything.
+    too_small: bool,
     colours: Colours,
     face: FacePicture,
 }
@@ -91,6 +93,7 @@ impl Player {
             help: false,
             over: false,
             redraw: false,
+            too_small: false,
             colours,
             face: FacePicture::default(),
         }
@@ -121,6 +124,9 @@ impl Player {
 
     /// Takes a key by its name in the table; whether it means something here.
     pub fn key(&mut self, name: &str) -> bool {
+        if self.too_small && name != "Ctrl-c" {
+            return false;
+        }
         let place = if self.help { Place::Help } else { Place::Player };
         let Some(action) = keys::action_of(place, name) else { return false };
         match action {
@@ -156,7 +162,8 @@ impl Player {
     pub fn draw(&mut self, frame: &mut Frame<'_>) {
         let area = frame.area();
         let buffer = frame.buffer_mut();
-        if draw::is_too_small(buffer, area) {
+        self.too_small = draw::is_too_small(buffer, area);
+        if self.too_small {
             return;
         }
         let time = self.show.timeline.time_of(self.frame());
@@ -173,7 +180,9 @@ impl Player {
         if self.help {
             draw::help(buffer, area, Place::Player, 0);
         }
-        draw::foot(buffer, area, if self.help { Place::Help } else { Place::Player }, None, None, self.colours);
+        let place = if self.help { Place::Help } else { Place::Player };
+        let foot = draw::Foot { place, lane: None, opens: false, message: None, busy: None };
+        draw::foot(buffer, area, foot, self.colours);
     }
 
     /// What is said around now, the syllable of now turned over; without words the title.

@@ -1,9 +1,10 @@
 //! Everything the studio knows: which lessons there are, which is open, what is on the desk, what lies on top.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use super::Place;
-use super::editor::Editor;
+use super::editor::{Editor, Left};
 use super::look::Colours;
 use super::overlay::Overlay;
 use crate::disk::Result;
@@ -60,6 +61,8 @@ pub struct Open {
     pub findings: Vec<Finding>,
     /// Which clip is chosen.
     pub chosen: usize,
+    /// Where the author was on the clips that she has left, by their numbers.
+    pub left: BTreeMap<usize, Left>,
 }
 
 /// Something to say.

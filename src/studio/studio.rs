@@ -1,5 +1,6 @@
 //! The studio without a terminal: keys and reports go in, a frame comes out.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
@@ -7,7 +8,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use ratatui::Frame;
 
 use super::draw::{self, Layout};
-use super::execute::{Job, execute};
+use super::execute::{Job, SILENT, execute};
 use super::export::{Exporter, Progress};
 use super::overlay::Overlay;
 use super::picture::FacePicture;
@@ -55,6 +56,8 @@ pub struct Studio {
     /// Threads that have not reported their end.
     under_way: usize,
     face: FacePicture,
+    /// Whether the last frame had no room for anything: nobody can see then what a key would do.
+    too_small: bool,
 }
 
 impl Studio {
@@ -67,11 +70,17 @@ impl Studio {
             reports: unbounded(),
             under_way: 0,
             face: FacePicture::default(),
+            too_small: false,
         }
     }
 
     /// Takes a key by its name in the key table. Keys that mean nothing here are let pass.
     pub fn key(&mut self, name: &str) -> bool {
+        if self.too_small {
+            // No question could be seen. What is unsaved waits in the journal, as after a lost connection.
+            self.state.leaving |= name == "Ctrl-c";
+            return self.state.leaving;
+        }
         let place = self.state.place();
         // While a lesson opens, keys would go to a screen that is about to change.
         if self.state.busy.is_some() && place == Place::Projects && !matches!(name, "q" | "Ctrl-c" | "Esc") {
@@ -108,7 +117,11 @@ impl Studio {
         let frame = (at * editor.timeline.fps()).floor() / editor.timeline.fps();
         editor.go(&clips[editor.clip], frame);
         editor.playing = (!over).then_some(at);
-        over || editor.frame() != before
+        let new = over || editor.frame() != before;
+        if over {
+            self.state.message.take_if(|m| m.text == SILENT);
+        }
+        new
     }
 
     /// Seconds to the next frame while it plays; none while nothing moves.
@@ -135,9 +148,9 @@ impl Studio {
                     && lesson.recovered > 0
                 {
                     let many = if lesson.recovered == 1 { "change" } else { "changes" };
-                    self.state.say(format!("{} unsaved {many} of the last time brought back", lesson.recovered));
+                    self.state.say(format!("brought back {} unsaved {many} from last time", lesson.recovered));
                 }
-                self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0 });
+                self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0, left: BTreeMap::new() });
             }
             Report::Outlined { root, clip, sound, loudest } => {
                 self.under_way -= 1;
@@ -180,6 +193,7 @@ impl Studio {
 
     /// Draws the state. The face is painted anew only where its pose or its size has changed.
     pub fn draw(&mut self, frame: &mut Frame<'_>) {
+        self.too_small = draw::has_no_room(frame.area());
         let layout = Layout::of(frame.area(), &self.state);
         if let (Some(layout), Some(editor)) = (&layout, &self.state.editor) {
             self.face.show(&editor.figure, &editor.pose(), layout.face, self.state.colours);

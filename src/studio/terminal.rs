@@ -52,9 +52,11 @@ fn fault(error: io::Error) -> Fault {
 }
 
 impl Screen {
-    /// Whether there is a terminal to take.
+    /// Whether there is a terminal to take. Standard input may be a file or a pipe, such as the record that is played:
+    /// keys come from the terminal itself then.
     pub fn is_there() -> bool {
-        io::stdin().is_terminal() && io::stdout().is_terminal()
+        let opens = || File::options().read(true).write(true).open("/dev/tty").is_ok();
+        io::stdout().is_terminal() && (io::stdin().is_terminal() || opens())
     }
 
     /// Takes the terminal over.

@@ -9,10 +9,19 @@ use crate::timeline::{Ease, Key, KeyValue, Range, Track};
 pub const fn key_help(track: Track) -> &'static str {
     match track {
         Track::Mouth => "one of m f h a i u e o n, or rest",
-        Track::Emotion => "such as happy 0.6, fear 0.2 (the rest is neutral); hold, linear, ends",
+        Track::Emotion => {
+            "such as happy 0.6, fear 0.2 (the rest is neutral); then how it goes on: smooth, linear or hold; ends = \
+             the record again"
+        }
         Track::Blink => "Enter, or seconds such as 0.3",
-        Track::Gaze => "x y in eye heights: right and down are positive; 0 0 is straight ahead",
-        Track::Head => "x y roll: pupil distances right and down, degrees clockwise",
+        Track::Gaze => {
+            "x y in eye heights: right and down are positive; 0 0 is straight ahead; then how it goes on: smooth, \
+             linear or hold"
+        }
+        Track::Head => {
+            "x y roll: pupil distances right and down, degrees clockwise; then how it goes on: smooth, linear or \
+             hold"
+        }
     }
 }
 
@@ -119,6 +128,20 @@ fn emotion(word: &str) -> Result<Emotion, String> {
     {
         return Ok(found);
     }
+    // The seven are called by nouns and adjectives as they come; whoever types the other form means the same.
+    let other = match word.as_str() {
+        "calm" | "none" => Some(Emotion::Neutral),
+        "happiness" | "happily" => Some(Emotion::Happy),
+        "angry" | "angrily" => Some(Emotion::Anger),
+        "disgusted" | "disgusting" => Some(Emotion::Disgust),
+        "sadly" | "unhappy" => Some(Emotion::Sadness),
+        "fearful" | "afraid" | "scared" => Some(Emotion::Fear),
+        "surprising" => Some(Emotion::Surprised),
+        _ => None,
+    };
+    if let Some(found) = other {
+        return Ok(found);
+    }
     let mut near = Emotion::ALL.into_iter().filter(|e| word.len() > 1 && e.name().starts_with(&word));
     match (near.next(), near.next()) {
         (Some(found), None) => Ok(found),
@@ -220,6 +243,16 @@ mod tests {
         let KeyValue::Emotion(r) = key(Track::Emotion, "H .5 surp 0.2", 0.0).unwrap().value else { unreachable!() };
         assert_eq!((r[Emotion::Happy], r[Emotion::Surprised]), (0.5, 0.2));
         assert!((r.sum() - 1.0).abs() < 1e-12);
+        for (word, meant) in [
+            ("angry", Emotion::Anger),
+            ("sad", Emotion::Sadness),
+            ("Happiness", Emotion::Happy),
+            ("surprise", Emotion::Surprised),
+            ("fearful", Emotion::Fear),
+            ("disgusted", Emotion::Disgust),
+        ] {
+            assert_eq!(emotion(word), Ok(meant));
+        }
     }
 
     #[test]

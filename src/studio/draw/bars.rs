@@ -19,29 +19,38 @@ const WIDEST: u16 = 50;
 const ROOMY: u16 = 124;
 
 pub(super) fn panel(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Clip, colours: Colours) {
-    let left = Rect { width: area.width.min(78), ..area };
-    ratios(buffer, left, editor, colours);
-    let mut y = area.y + 8.min(area.height);
-    for (text, style) in lines(editor, clip, left.width, colours) {
-        if y < area.bottom() {
-            put_short(buffer, left.x, y, left.width, &text, style);
-            y += 1;
+    let left = Rect { width: area.width.min(if area.width >= ROOMY { 66 } else { 78 }), ..area };
+    let lines = lines(editor, clip, left.width, colours);
+    let count = lines.len() as u16;
+    // Where there is no room for both, time and syllable come first and of the ratios only what there is.
+    let is_low = area.height < 7 + count;
+    let (bars, text) = match is_low {
+        true => (Rect { y: left.y + count, height: left.height.saturating_sub(count), ..left }, left),
+        false => {
+            let gap = 7 + u16::from(area.height > 7 + count);
+            (Rect { height: 7, ..left }, Rect { y: left.y + gap, height: left.height - gap, ..left })
         }
+    };
+    ratios(buffer, bars, editor, is_low, colours);
+    for ((line, style), y) in lines.iter().zip(text.y..text.bottom()) {
+        put_short(buffer, text.x, y, text.width, line, *style);
     }
     if area.width >= ROOMY {
         let keys = Rect { x: left.right() + 3, width: area.right() - left.right() - 3, ..area };
+        let widest = help_of(Place::Timeline).map(|(names, _)| cells(&names)).max().unwrap_or(0);
         for ((names, help), y) in help_of(Place::Timeline).zip(keys.y..keys.bottom()) {
-            put(buffer, keys.x, y, 14, &names, BOLD);
-            put_short(buffer, keys.x + 15, y, keys.width.saturating_sub(15), help, DIM);
+            put(buffer, keys.x, y, widest, &names, BOLD);
+            put_short(buffer, keys.x + widest + 2, y, keys.width.saturating_sub(widest + 2), help, DIM);
         }
     }
 }
 
-/// A bar a ratio: letter, name, bar, number.
-fn ratios(buffer: &mut Buffer, area: Rect, editor: &Editor, colours: Colours) {
+/// A bar a ratio: letter, name, bar, number; of all seven, or of those that are not zero.
+fn ratios(buffer: &mut Buffer, area: Rect, editor: &Editor, only_some: bool, colours: Colours) {
     let ratios = editor.timeline.ratios(editor.cursor);
     let widest = area.width.saturating_sub(19).min(WIDEST);
-    for (emotion, y) in Emotion::ALL.into_iter().zip(area.y..area.bottom()) {
+    let shown = Emotion::ALL.into_iter().filter(|e| !only_some || ratios[*e].abs() >= 0.005);
+    for (emotion, y) in shown.zip(area.y..area.bottom()) {
         let style = colours.of_emotion(emotion);
         put(buffer, area.x, y, 1, &emotion.letter().to_string(), style.add_modifier(Modifier::BOLD));
         put(buffer, area.x + 2, y, 9, emotion.name(), Style::new());
@@ -96,6 +105,9 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
     let shape = shape.map_or("rest".into(), |s| s.to_string());
     let key = edits::key_line(editor, clip).map_or(String::new(), |k| format!("   {k}"));
     lines.push((format!("mouth {shape}{key}"), Style::new()));
+    if let Some(range) = edits::range_line(editor, clip) {
+        lines.push((range, colours.accent()));
+    }
     if let Some(mark) = editor.mark {
         lines.push((format!("marked from {mark:.3} s: v at the other end"), colours.warning()));
     }

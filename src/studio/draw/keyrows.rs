@@ -97,21 +97,61 @@ pub(super) fn keys(buffer: &mut Buffer, row: Rect, lane: Option<Lane>, editor: &
             marks.push(Mark { time, letter: 'b', text: String::new(), own: false });
         }
     }
-    marks.sort_by(|a, b| a.time.total_cmp(&b.time));
-    if marks.is_empty() && lane.is_some_and(|l| l == editor.lane) {
+    // In one column the author's come first: they are shown where there is room for one alone.
+    marks.sort_by_key(|m| (window.column(m.time, columns), !m.own));
+    // The waves of an edited stretch say more than that there are no keys beside it.
+    let is_waved = wanted(Track::Emotion) && !clip.score.ranges.is_empty();
+    if marks.is_empty() && !is_waved && lane.is_some_and(|l| l == editor.lane) {
         put(buffer, row.x, row.y, columns, "no keys yet: a adds one at the cursor", DIM);
     }
-    let places: Vec<i32> = marks.iter().map(|m| window.column(m.time, columns)).collect();
+    let wanted: Vec<i32> = marks.iter().map(|m| window.column(m.time, columns)).collect();
+    let places = spread(&wanted, i32::from(columns));
     for (index, (mark, place)) in marks.iter().zip(&places).enumerate() {
-        let Some(column) = u16::try_from(*place).ok().filter(|c| *c < columns) else { continue };
-        let x = row.x + column;
         let style = if mark.own { own_style(colours) } else { Style::new() };
+        let Some(place) = *place else {
+            // There is no room beside it either: the one that stands there has company.
+            if let Some(column) = u16::try_from(wanted[index]).ok().filter(|c| *c < columns) {
+                put(buffer, row.x + column, row.y, 1, "+", style);
+            }
+            continue;
+        };
+        let Some(column) = u16::try_from(place).ok().filter(|c| *c < columns) else { continue };
+        let x = row.x + column;
         put(buffer, x, row.y, 1, &mark.letter.to_string(), style);
         // What it sets, up to the next key.
-        let next = places.get(index + 1).map_or(i32::from(columns), |n| (*n - 1).min(i32::from(columns)));
-        let room = u16::try_from(next - *place - 2).unwrap_or(0);
+        let next = places[index + 1..].iter().flatten().next().copied();
+        let next = next.map_or(i32::from(columns), |n| (n - 1).min(i32::from(columns)));
+        let room = u16::try_from(next - place - 2).unwrap_or(0);
         if lane.is_some() && cells(&mark.text) <= room {
             put(buffer, x + 2, row.y, room, &mark.text, Style::new());
         }
+    }
+}
+
+/// The columns of marks of which no two may share one: later ones go to the right, at most two columns and only where
+/// nothing else belongs. Those that find no place have none.
+fn spread(wanted: &[i32], columns: i32) -> Vec<Option<i32>> {
+    let mut placed: Vec<Option<i32>> = Vec::with_capacity(wanted.len());
+    for (index, want) in wanted.iter().enumerate() {
+        let is_free =
+            |c: &i32| !placed.contains(&Some(*c)) && (c == want || !wanted[index..].contains(c) && *c < columns);
+        // What is out of sight stays there.
+        let reach = if *want < 0 { *want } else { want + 2 };
+        let place = (*want..=reach).find(is_free).or((*want < 0).then_some(*want));
+        placed.push(place);
+    }
+    placed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_of_one_instant_stand_side_by_side_where_there_is_room() {
+        assert_eq!(spread(&[4, 4, 4, 9], 66), [Some(4), Some(5), Some(6), Some(9)]);
+        assert_eq!(spread(&[4, 4, 5], 66), [Some(4), Some(6), Some(5)]);
+        assert_eq!(spread(&[4, 4, 5, 6], 66), [Some(4), None, Some(5), Some(6)]);
+        assert_eq!(spread(&[65, 65], 66), [Some(65), None]);
     }
 }

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::LEAST;
+use super::has_no_room;
 use crate::studio::picture::FacePicture;
 use crate::studio::state::State;
 use crate::studio::{Lane, Place};
@@ -33,7 +33,7 @@ pub(in crate::studio) struct Layout {
 impl Layout {
     /// The layout of the timeline; none on other screens and where there is no room.
     pub fn of(area: Rect, state: &State) -> Option<Self> {
-        if area.width < LEAST.0 || area.height < LEAST.1 || state.screen() != Place::Timeline {
+        if has_no_room(area) || state.screen() != Place::Timeline {
             return None;
         }
         let editor = state.editor.as_ref()?;

@@ -6,6 +6,7 @@ use ratatui::style::{Modifier, Style};
 
 use super::{BOLD, CHOSEN, DIM, cells, head, put, put_short};
 use crate::project::{Clip, Finding, Lesson};
+use crate::studio::look::Colours;
 use crate::studio::state::{Open, State};
 
 /// The lessons of the folder.
@@ -25,7 +26,7 @@ pub(super) fn lessons(buffer: &mut Buffer, area: Rect, state: &State) {
         let (text, style) = match &listed.manifest {
             Ok((title, 1)) => (format!("{title}   1 clip"), style),
             Ok((title, clips)) => (format!("{title}   {clips} clips"), style),
-            Err(fault) => (format!("✗ {}", fault.what()), style.patch(state.colours.warning())),
+            Err(fault) => (format!("✗ {}", fault.what()), style.patch(state.colours.fault())),
         };
         put_short(buffer, list.x + 1 + names, y, list.width.saturating_sub(names + 2), &text, style);
     }
@@ -35,10 +36,10 @@ pub(super) fn lessons(buffer: &mut Buffer, area: Rect, state: &State) {
 pub(super) fn lesson(buffer: &mut Buffer, area: Rect, state: &State) {
     let Some(open) = &state.open else { return };
     let (title, standing) = match &open.lesson {
-        Ok(lesson) => (lesson.manifest.title.as_str(), standing(lesson)),
-        Err(_) => (open.name.as_str(), "it does not open"),
+        Ok(lesson) => (lesson.manifest.title.as_str(), standing(lesson, state.colours)),
+        Err(_) => (open.name.as_str(), ("it does not open", state.colours.fault())),
     };
-    head(buffer, area, &[title], standing, DIM);
+    head(buffer, area, &[title], standing.0, standing.1);
     let inner = Rect::new(area.x + 1, area.y + 2, area.width - 2, area.height - 4);
     let mut y = inner.y;
     match &open.lesson {
@@ -55,7 +56,7 @@ pub(super) fn lesson(buffer: &mut Buffer, area: Rect, state: &State) {
             // A check finds the same and more, as a rule.
             let told = open.findings.iter().any(|f| matches!(f, Finding::Wrong(_)));
             for line in fault.to_string().lines().filter(|_| !told) {
-                put_short(buffer, inner.x, y, inner.width, line, state.colours.warning());
+                put_short(buffer, inner.x, y, inner.width, line, state.colours.fault());
                 y += 1;
             }
             y += 1;
@@ -67,11 +68,12 @@ pub(super) fn lesson(buffer: &mut Buffer, area: Rect, state: &State) {
     }
 }
 
-fn standing(lesson: &Lesson) -> &'static str {
+/// How a lesson stands, for the line at the top.
+pub(super) fn standing(lesson: &Lesson, colours: Colours) -> (&'static str, Style) {
     match (&lesson.read_only, lesson.is_unsaved()) {
-        (Some(_), _) => "read-only",
-        (None, true) => "● unsaved",
-        (None, false) => "saved",
+        (Some(_), _) => ("read-only", colours.warning()),
+        (None, true) => ("● unsaved: s saves", colours.warning().add_modifier(Modifier::BOLD)),
+        (None, false) => ("saved", DIM),
     }
 }
 
@@ -99,8 +101,10 @@ fn facts(clip: &Clip) -> String {
     if clip.timing.guessed && clip.score.pins.len() < clip.syllables.len() {
         facts.push("guessed?".into());
     }
-    if !clip.score.keys.is_empty() {
-        facts.push(format!("{} keys", clip.score.keys.len()).replace("1 keys", "1 key"));
+    match clip.score.keys.len() {
+        0 => {}
+        1 => facts.push("1 key".into()),
+        many => facts.push(format!("{many} keys")),
     }
     facts.join(", ")
 }
@@ -120,7 +124,7 @@ fn findings(buffer: &mut Buffer, area: Rect, findings: &[Finding], state: &State
         let (mark, style, text) = match finding {
             Finding::Fine(text) => ("✓", Style::new(), text.clone()),
             Finding::Odd(text) => ("!", warning, text.clone()),
-            Finding::Wrong(fault) => ("✗", warning.add_modifier(Modifier::BOLD), fault.to_string()),
+            Finding::Wrong(fault) => ("✗", state.colours.fault().add_modifier(Modifier::BOLD), fault.to_string()),
         };
         for (index, line) in text.lines().flat_map(|l| folded(l.trim(), area.width.saturating_sub(3))).enumerate() {
             if y >= area.bottom() {

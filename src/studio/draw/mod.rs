@@ -11,7 +11,7 @@ mod said;
 mod sound;
 mod timeline;
 
-pub(super) use foot::foot;
+pub(super) use foot::{Foot, foot};
 pub(super) use layout::Layout;
 pub(super) use overlays::help;
 
@@ -44,21 +44,34 @@ pub(super) fn screen(frame: &mut Frame<'_>, state: &State, layout: Option<&Layou
         (Place::Lesson, _) => lists::lesson(buffer, area, state),
         _ => lists::lessons(buffer, area, state),
     }
-    foot(buffer, area, state.place(), state.message.as_ref(), state.busy.as_deref(), state.colours);
-    if let Some(caret) = overlays::overlays(buffer, area, state) {
+    let at_foot = Foot {
+        place: state.place(),
+        lane: state.editor.as_ref().map(|e| e.lane),
+        opens: state.lesson().is_some(),
+        message: state.message.as_ref(),
+        busy: state.busy.as_deref(),
+    };
+    foot(buffer, area, at_foot, state.colours);
+    if let Some(caret) = overlays::overlays(buffer, area, layout, state) {
         frame.set_cursor_position(caret);
     }
 }
 
+/// Whether a terminal is too small for anything.
+pub(super) fn has_no_room(area: Rect) -> bool {
+    area.width < LEAST.0 || area.height < LEAST.1
+}
+
 /// Says so where a terminal is too small for anything else.
 pub(super) fn is_too_small(buffer: &mut Buffer, area: Rect) -> bool {
-    let too_small = area.width < LEAST.0 || area.height < LEAST.1;
+    let too_small = has_no_room(area);
     if too_small {
-        let text = format!("{} × {} is too small", area.width, area.height);
-        put(buffer, area.x, area.y, area.width, &text, BOLD);
-        if area.height > 1 {
-            let help = format!("make it {} × {} or larger", LEAST.0, LEAST.1);
-            put(buffer, area.x, area.y + 1, area.width, &help, Style::new());
+        let what = lists::folded(&format!("{} × {} is too small", area.width, area.height), area.width);
+        let help = format!("make it {} × {} or larger; Ctrl-c quits", LEAST.0, LEAST.1);
+        let lines = what.into_iter().map(|l| (l, BOLD));
+        let lines = lines.chain(lists::folded(&help, area.width).into_iter().map(|l| (l, Style::new())));
+        for ((line, style), y) in lines.zip(area.y..area.bottom()) {
+            put(buffer, area.x, y, area.width, &line, style);
         }
     }
     too_small

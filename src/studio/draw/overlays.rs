@@ -6,14 +6,14 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::lists::folded;
-use super::{BOLD, CHOSEN, DIM, cells, put, put_short};
+use super::{BOLD, CHOSEN, DIM, Layout, cells, put, put_short};
 use crate::studio::export::Progress;
 use crate::studio::keys::{Place, help_of};
 use crate::studio::overlay::{Overlay, Prompt};
 use crate::studio::state::State;
 
 /// Draws what lies on top, in order; where the caret stands, if a line is being typed.
-pub(super) fn overlays(buffer: &mut Buffer, area: Rect, state: &State) -> Option<Position> {
+pub(super) fn overlays(buffer: &mut Buffer, area: Rect, layout: Option<&Layout>, state: &State) -> Option<Position> {
     let mut caret = None;
     for overlay in &state.overlays {
         caret = match overlay {
@@ -21,7 +21,7 @@ pub(super) fn overlays(buffer: &mut Buffer, area: Rect, state: &State) -> Option
                 help(buffer, area, *of, *scrolled);
                 None
             }
-            Overlay::Prompt(asked) => Some(prompt(buffer, area, asked, state)),
+            Overlay::Prompt(asked) => Some(prompt(buffer, area, layout, asked, state)),
             Overlay::Confirm(_) => {
                 confirm(buffer, area);
                 None
@@ -39,8 +39,13 @@ pub(super) fn overlays(buffer: &mut Buffer, area: Rect, state: &State) -> Option
 fn boxed(buffer: &mut Buffer, area: Rect, width: u16, height: u16, title: &str) -> Rect {
     let (width, height) = ((width + 4).min(area.width), (height + 2).min(area.height));
     let place = Rect::new(area.x + (area.width - width) / 2, area.y + (area.height - height) / 3, width, height);
+    boxed_at(buffer, place, title)
+}
+
+/// An empty box at a place; its inside.
+fn boxed_at(buffer: &mut Buffer, place: Rect, title: &str) -> Rect {
     // A wide letter whose half lies under the edge would leave the edge one cell off.
-    if place.x > area.x {
+    if place.x > buffer.area.x {
         for y in place.y..place.bottom() {
             if let Some(cell) = buffer.cell_mut((place.x - 1, y))
                 && cells(cell.symbol()) > 1
@@ -52,7 +57,7 @@ fn boxed(buffer: &mut Buffer, area: Rect, width: u16, height: u16, title: &str) 
     Clear.render(place, buffer);
     let block = Block::bordered().border_type(BorderType::Rounded).title(format!(" {title} ")).title_style(BOLD);
     block.render(place, buffer);
-    Rect::new(place.x + 2, place.y + 1, width.saturating_sub(4), height.saturating_sub(2))
+    Rect::new(place.x + 2, place.y + 1, place.width.saturating_sub(4), place.height.saturating_sub(2))
 }
 
 /// Every key of a place.
@@ -72,12 +77,35 @@ pub(in crate::studio) fn help(buffer: &mut Buffer, area: Rect, of: Place, scroll
     }
 }
 
-/// A line to type; where its caret stands.
-fn prompt(buffer: &mut Buffer, area: Rect, prompt: &Prompt, state: &State) -> Position {
-    let below = prompt.fault.as_deref().unwrap_or(prompt.help);
-    let width = area.width.saturating_sub(8).min(70);
+/// The box of a prompt and the text below its line. Beside the face where that has room, so that what is being changed
+/// stays in sight.
+fn prompt_box(
+    buffer: &mut Buffer,
+    area: Rect,
+    layout: Option<&Layout>,
+    title: &str,
+    below: &str,
+) -> (Vec<String>, Rect) {
+    const WIDEST: u16 = 70;
+    if let Some(panel) = layout.map(|l| l.panel) {
+        let width = panel.width.min(WIDEST + 4);
+        let lines = folded(below, width.saturating_sub(4));
+        let height = 4 + lines.len() as u16;
+        if height <= panel.height && cells(title) + 4 <= width {
+            let inside = boxed_at(buffer, Rect { width, height, ..panel }, title);
+            return (lines, inside);
+        }
+    }
+    let width = area.width.saturating_sub(8).min(WIDEST);
     let lines = folded(below, width);
-    let inside = boxed(buffer, area, width, 2 + lines.len() as u16, &prompt.title);
+    let inside = boxed(buffer, area, width, 2 + lines.len() as u16, title);
+    (lines, inside)
+}
+
+/// A line to type; where its caret stands.
+fn prompt(buffer: &mut Buffer, area: Rect, layout: Option<&Layout>, prompt: &Prompt, state: &State) -> Position {
+    let below = prompt.fault.as_deref().unwrap_or(&prompt.help);
+    let (lines, inside) = prompt_box(buffer, area, layout, &prompt.title, below);
     // Of a long line the part before the caret is shown.
     let room = inside.width.saturating_sub(3);
     let mut start = 0;
@@ -88,7 +116,7 @@ fn prompt(buffer: &mut Buffer, area: Rect, prompt: &Prompt, state: &State) -> Po
     let typed = if prompt.line.is_proposed() { CHOSEN } else { BOLD };
     put(buffer, inside.x, inside.y, 2, "> ", DIM);
     put(buffer, inside.x + 2, inside.y, inside.width - 2, &prompt.line.text()[start..], typed);
-    let style = if prompt.fault.is_some() { state.colours.warning() } else { DIM };
+    let style = if prompt.fault.is_some() { state.colours.fault() } else { DIM };
     for (line, y) in lines.iter().zip(inside.y + 2..inside.bottom()) {
         put(buffer, inside.x, y, inside.width, line, style);
     }

@@ -21,6 +21,13 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         put(buffer, layout.said.x + 1, layout.said.y, columns - 1, &text, DIM);
         return;
     }
+    let needs_all = |(s, i): (&crate::script::Syllable, &crate::timing::Interval)| {
+        let room = window.column(i.end, columns) - window.column(i.start, columns);
+        room <= 2 && room <= i32::from(cells(&s.text))
+    };
+    // A few boundaries among many would group syllables that do not belong together: it is all of them or none, and
+    // then every second syllable is underlined.
+    let crowded = clip.syllables.iter().zip(clip.intervals()).filter(|(_, i)| inside(i)).any(needs_all);
     let mut last_end = -1;
     let mut any_guessed = false;
     for (index, (syllable, interval)) in clip.syllables.iter().zip(clip.intervals()).enumerate() {
@@ -32,15 +39,15 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         let guessed = Editor::is_guessed(clip, index);
         let row = layout.said;
         let at = |column: i32| row.x + column.clamp(0, i32::from(columns)) as u16;
-        let style = if chosen { CHOSEN } else { Style::new() };
-        if chosen {
+        let line = if crowded && index % 2 == 1 { Modifier::UNDERLINED } else { Modifier::empty() };
+        let style = if chosen { CHOSEN } else { Style::new() }.add_modifier(line);
+        if chosen || !line.is_empty() {
             for x in at(start)..at(end).max(at(start) + 1).min(row.right()) {
                 put(buffer, x, row.y, 1, " ", style);
             }
         }
-        // The boundary, then the text; where there is room for one character alone, that.
-        let room = at(end).saturating_sub(at(start));
-        let bounded = start >= 0 && !(room <= 2 && room == cells(&syllable.text));
+        // The boundary, then the text.
+        let bounded = start >= 0 && !crowded;
         if bounded {
             put(buffer, at(start), row.y, 1, "│", style);
         }
@@ -56,7 +63,7 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         debug_assert!(used <= room.max(1), "a syllable stays inside its time");
         // Where nothing follows at once, the end is drawn too.
         let follows = clip.intervals().get(index + 1).is_some_and(|next| window.column(next.start, columns) <= end);
-        if !follows && (0..i32::from(columns)).contains(&end) {
+        if !follows && !crowded && (0..i32::from(columns)).contains(&end) {
             put(buffer, at(end), row.y, 1, "│", Style::new());
         }
         let below = layout.pinyin;

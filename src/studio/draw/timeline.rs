@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 
-use super::{BOLD, DIM, Layout, bars, cells, curves, head, keyrows, put, said, sound};
+use super::{BOLD, DIM, Layout, bars, cells, curves, head, keyrows, lists, put, said, sound};
 use crate::studio::Lane;
 use crate::studio::editor::Editor;
 use crate::studio::picture::FacePicture;
@@ -13,11 +13,7 @@ use crate::timeline::Track;
 
 pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face: &FacePicture) {
     let (Some(editor), Some(clip), Some(lesson)) = (&state.editor, state.clip(), state.lesson()) else { return };
-    let (standing, style) = match (&lesson.read_only, lesson.is_unsaved()) {
-        (Some(_), _) => ("read-only", state.colours.warning()),
-        (None, true) => ("● unsaved", state.colours.warning().add_modifier(Modifier::BOLD)),
-        (None, false) => ("saved", DIM),
-    };
+    let (standing, style) = lists::standing(lesson, state.colours);
     head(buffer, layout.area, &[&lesson.manifest.title, &clip.entry.name], standing, style);
     face.put(buffer, layout.face);
     bars::panel(buffer, layout.panel, editor, clip, state.colours);
