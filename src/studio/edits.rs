@@ -190,7 +190,10 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
             edits.push(Edit::AddKey { clip: number, key });
             let mut label = format!("{} {} at {time:.2} s", track_name(track), typed::key_text(&key));
             // Before its first key a track has that key's value: an emotion meant for here colours all that came before.
-            if track == Track::Emotion && time > 1e-6 && state.clip().is_some_and(is_first_emotion) {
+            let first = track == Track::Emotion && state.clip().is_some_and(is_first_emotion);
+            if first && state.clip().is_some_and(|c| c.record.is_some()) {
+                label.push_str(", for this instant; add another, and the record gives way from one to the other");
+            } else if first && time > 1e-6 {
                 label.push_str(", and from the start too; add `neutral` at 0 to begin otherwise");
             }
             change(state, Change { label, edits });
@@ -213,9 +216,9 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
     }
 }
 
-/// Whether an emotion key would be the clip's first, with no record to say what was before it.
+/// Whether an emotion key would be the clip's first.
 fn is_first_emotion(clip: &Clip) -> bool {
-    clip.record.is_none() && clip.score.keys.iter().all(|k| k.value.track() != Track::Emotion)
+    clip.score.keys.iter().all(|k| k.value.track() != Track::Emotion)
 }
 
 fn take_reading(state: &mut State, number: usize, index: usize, text: &str) -> Result<(), String> {
