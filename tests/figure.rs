@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-use std::path::PathBuf;
+mod test_data;
 
 use lianpu::drawing::{Colour, Drawing, Item, Layer};
 use lianpu::figure::LineFigure;
@@ -10,19 +10,10 @@ use lianpu::geometry::{Point, Rect, Ribbon};
 use lianpu::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
 use lianpu::render::Painter;
 
-fn data(path: &str) -> Option<String> {
-    let root = std::env::var_os("LIANPU_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
-    let text = std::fs::read_to_string(root.join(path)).ok();
-    if text.is_none() {
-        println!("{path} is not there: skipped");
-    }
-    text
-}
-
 #[test]
 fn blending_at_the_seven_corners_gives_table_1_back_exactly() {
-    let Some(table) = data("line-figure/table1.csv") else { return };
+    let Some(table) = test_data::find("line-figure/table1.csv") else { return };
+    let table = std::fs::read_to_string(table).unwrap();
     let figure = LineFigure::built_in("line").unwrap();
     let mut cells = 0;
     for (point, row) in table.lines().skip(1).enumerate() {
@@ -38,7 +29,8 @@ fn blending_at_the_seven_corners_gives_table_1_back_exactly() {
 
 #[test]
 fn the_lines_are_those_of_table_2() {
-    let Some(table) = data("line-figure/table2.csv") else { return };
+    let Some(table) = test_data::find("line-figure/table2.csv") else { return };
+    let table = std::fs::read_to_string(table).unwrap();
     let figure = LineFigure::built_in("line").unwrap();
     let names: Vec<&str> = table.lines().skip(1).filter_map(|l| l.split(',').next()).collect();
     assert_eq!(figure.line_names().collect::<Vec<_>>(), names);

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
+mod test_data;
+
 use std::path::PathBuf;
 
 use lianpu::pose::{MouthPreset, MouthShape};
@@ -9,23 +11,25 @@ use lianpu::script::{OnsetPreset, System, onsets, syllables};
 use lianpu::timeline::{Score, Sources, Spoken, Timeline};
 use lianpu::timing;
 
-fn speech_folder() -> Option<PathBuf> {
-    let root = std::env::var_os("LIANPU_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
-    let folder = root.join("speech/espeak");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("{} is not there: skipped", folder.display());
-    None
-}
-
 /// Lips count as closed up to this opening, in M.
 const CLOSED: f64 = 0.03;
 
+/// Speech alone, at 25 frames a second.
+fn timeline(spoken: &[Spoken], duration: f64) -> Timeline {
+    Timeline::build(&Sources {
+        duration,
+        fps: 25.0,
+        spoken,
+        record: None,
+        tracks: None,
+        score: &Score::default(),
+        mouths: MouthPreset::Distinct,
+    })
+}
+
 #[test]
 fn lips_close_for_every_b_p_m_f_and_for_nothing_else() {
-    let Some(folder) = speech_folder() else { return };
+    let Some(folder) = test_data::find("speech/espeak") else { return };
     let (mut wanted, mut seen, mut open_frames, mut false_frames) = (0, 0, 0, 0);
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().flatten().map(|e| e.path()).collect();
     files.retain(|p| p.extension().is_some_and(|e| e == "TextGrid"));
@@ -44,15 +48,7 @@ fn lips_close_for_every_b_p_m_f_and_for_nothing_else() {
                 shapes: onsets(s, OnsetPreset::Measured).into_iter().zip(s.shapes.iter().copied()).collect(),
             })
             .collect();
-        let line = Timeline::build(&Sources {
-            duration: times.duration,
-            fps: 25.0,
-            spoken: &spoken,
-            record: None,
-            tracks: None,
-            score: &Score::default(),
-            mouths: MouthPreset::Distinct,
-        });
+        let line = timeline(&spoken, times.duration);
         let frames: Vec<(f64, bool)> = (0..line.frames())
             .map(|k| line.time_of(k))
             .map(|t| (t, line.mouth(t).0.speaking > 0.99 && line.mouth(t).0.opening() <= CLOSED))
@@ -96,15 +92,7 @@ fn fast_speech_does_not_flap() {
             if i % 2 == 0 { vec![(0.0, MouthShape::M), (0.464, MouthShape::A)] } else { vec![(0.0, MouthShape::A)] };
         spoken.push(Spoken { start, end: start + 0.1, shapes });
     }
-    let line = Timeline::build(&Sources {
-        duration: 2.6,
-        fps: 25.0,
-        spoken: &spoken,
-        record: None,
-        tracks: None,
-        score: &Score::default(),
-        mouths: MouthPreset::Distinct,
-    });
+    let line = timeline(&spoken, 2.6);
     let opening = |t: f64| line.mouth(t).0.opening();
     let path = |times: std::ops::Range<u32>| {
         let values: Vec<f64> = times.map(|k| opening(f64::from(k) / 100.0)).collect();

@@ -125,6 +125,21 @@ fn a_recording_that_is_a_link_out_of_the_lesson_is_refused() {
 }
 
 #[test]
+fn phrases_are_the_script_s_own_words_and_never_cut_a_number() {
+    let (_folder, root) = sample();
+    let clip = root.join("clips/nihao");
+    std::fs::remove_file(clip.join("timing.TextGrid")).unwrap();
+    std::fs::write(clip.join("script.txt"), "行{hang2}，我们一起说说说说说说说说说说说说说一百二十三。").unwrap();
+    let lesson = Lesson::read(&root).unwrap();
+    let phrases = lesson.clips[0].phrases();
+    assert_eq!(phrases.intervals[0].label, "行，");
+    std::fs::write(clip.join("script.txt"), "12345678901234567890123456789").unwrap();
+    let lesson = Lesson::read(&root).unwrap();
+    let labels: Vec<String> = lesson.clips[0].phrases().intervals.iter().map(|i| i.label.clone()).collect();
+    assert_eq!(labels, ["12345678901234567890123456789"]);
+}
+
+#[test]
 fn saving_twice_writes_nothing_the_second_time() {
     let (_folder, root) = sample();
     let mut lesson = Lesson::open(&root).unwrap();

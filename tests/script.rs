@@ -3,8 +3,9 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
+mod test_data;
+
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use lianpu::pose::MouthShape;
 use lianpu::script::{Lang, Pause, Reading, Sound, Syllable, System, onsets, reading, readings_of, syllables};
@@ -77,13 +78,9 @@ fn all_411_syllables_have_the_shapes_of_the_table_in_every_spelling() {
 
 #[test]
 fn marked_polyphones_in_real_sentences_have_the_right_mouth() {
-    let data = std::env::var_os("LIANPU_DATA")
-        .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")), PathBuf::from);
-    let read = |name: &str| std::fs::read_to_string(data.join("mandarin/polyphones").join(name));
-    let (Ok(sentences), Ok(labels)) = (read("dev.sent"), read("dev.lb")) else {
-        println!("no polyphone sentences under {}: nothing is measured", data.display());
-        return;
-    };
+    let Some(folder) = test_data::find("mandarin/polyphones") else { return };
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let (sentences, labels) = (read("dev.sent"), read("dev.lb"));
     let (mut all, mut right, mut toned, mut wrong) = (0, 0, 0, String::new());
     for (sentence, label) in sentences.lines().zip(labels.lines()) {
         let at = sentence.find('▁').unwrap();

@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod test_data;
+
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 use lianpu::disk::Fault;
@@ -147,17 +149,6 @@ fn what_cannot_be_read_says_why_and_what_to_do() {
     }
 }
 
-/// The test data, or nothing where there is none.
-fn data() -> Option<PathBuf> {
-    let default = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let folder = std::env::var_os("LIANPU_DATA").map_or(default, PathBuf::from).join("speech");
-    let there = folder.is_dir();
-    if !there {
-        println!("no test data at {}: nothing checked", folder.display());
-    }
-    there.then_some(folder)
-}
-
 /// The first start and last end of each file in a table, with the columns `file`, `start`, `end` at given places.
 fn ends(table: &Path, start: usize, end: usize) -> Vec<(String, f64, f64)> {
     let mut files: Vec<(String, f64, f64)> = Vec::new();
@@ -183,7 +174,7 @@ fn said(what: &str, errors: &[f64]) -> (f64, f64) {
 
 #[test]
 fn the_outer_ends_of_speech_are_found() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = test_data::find("speech") else { return };
     for (noisy, name) in [(false, "clean"), (true, "20 dB")] {
         let (mut starts, mut stops) = (Vec::new(), Vec::new());
         for (file, start, end) in ends(&folder.join("espeak/truth.csv"), 4, 5) {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use std::path::{Path, PathBuf};
+mod test_data;
 
 use lianpu::timing::{Format, Interval, Tier, Timing, parse, read, write, write_tier};
 use proptest::prelude::*;
@@ -258,20 +258,9 @@ fn only_json_keeps_that_times_are_guessed_and_control_characters_come_through_no
     assert_eq!((tier.name.as_str(), tier.intervals[0].label.as_str()), ("s", "a[31mb"));
 }
 
-/// The test data, or nothing where there is none.
-fn data() -> Option<PathBuf> {
-    let default = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let folder = std::env::var_os("LIANPU_DATA").map_or(default, PathBuf::from).join("speech");
-    let there = folder.is_dir();
-    if !there {
-        println!("no test data at {}: nothing checked", folder.display());
-    }
-    there.then_some(folder)
-}
-
 #[test]
 fn every_textgrid_of_the_test_data_reads_and_comes_back_within_a_millisecond() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = test_data::find("speech") else { return };
     let (mut files, mut far) = (0, 0.0_f64);
     for kind in std::fs::read_dir(folder).unwrap().filter_map(Result::ok).filter(|e| e.path().is_dir()) {
         for entry in std::fs::read_dir(kind.path()).unwrap().filter_map(Result::ok) {

@@ -96,7 +96,8 @@ pub enum MouthPreset {
 /// What a mouth does, away from its neutral face. All zero is the mouth at rest, as the emotion alone draws it.
 ///
 /// Vertical moves are in M = max(MNS0, 0.33 MW0), y down; MNS0 is the distance from nose to upper lip and MW0 the
-/// width of the neutral mouth (thesis 4.4.1). Left and right move alike.
+/// width of the neutral mouth (thesis 4.4.1). Left and right move alike. What concerns the thickness of lips is for
+/// figures whose lips have one; a line figure's are lines.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct MouthPose {
     /// Move of the peaks of the upper lip, points 8.9 and 8.10, in M; negative is up.

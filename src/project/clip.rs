@@ -223,9 +223,12 @@ impl Clip {
         let mut first = 0;
         for i in 0..said.len() {
             let next = said.get(i + 1);
-            let ends = next.is_none_or(|n| n.1.start - said[i].1.end > PAUSE)
+            let too_long = i + 1 - first >= LONGEST;
+            let breaks = next.is_none_or(|n| n.1.start - said[i].1.end > PAUSE)
                 || said[i].0.pause_after != Pause::None
-                || i + 1 - first >= LONGEST;
+                || too_long;
+            // The syllables of a number share its place in the script, which cannot be cut.
+            let ends = breaks && next.is_none_or(|n| n.0.span.start > said[i].0.span.start);
             if ends {
                 // With the punctuation that follows, without forced readings in braces.
                 let upto = next.map_or(self.script.len(), |n| n.0.span.start);
