@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::{Format, Job};
 use crate::disk::{Fault, Result, replace, write_whole};
 use crate::drawing::Drawing;
-use crate::render::{Painter, decode_key, encode_png, to_svg};
+use crate::render::{Painter, REVISION, decode_key, encode_png, to_svg};
 
 /// How far an export is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,9 +154,10 @@ fn write_frame(job: &Job, frame: u32, painter: &mut Painter, tally: &Tally) -> R
     Ok(())
 }
 
-/// Says what a PNG shows and what made it: the drawing, the size, and this version of the program.
+/// Says what a PNG shows and what made it: the drawing, the size, and this version of the program and its renderer.
 fn key_of(drawing: &Drawing, size: [u32; 2]) -> String {
-    format!("{} {}x{} {:016x}", env!("CARGO_PKG_VERSION"), size[0], size[1], drawing.fingerprint())
+    let [width, height] = size;
+    format!("{} {REVISION} {width}x{height} {:016x}", env!("CARGO_PKG_VERSION"), drawing.fingerprint())
 }
 
 /// Removes frames beyond the clip's end that an earlier export left: a video made of the folder would show them.

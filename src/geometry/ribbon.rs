@@ -48,7 +48,7 @@ struct Pen {
 }
 
 impl Pen {
-    /// Where the envelope touches the disc on one side (paper-free geometry): the contact points of a family of
+    /// Where the envelope touches the disc on one side: the contact points of a family of
     /// discs lie at r (±√(1 − r'²) n − r' τ) from the centre, r' being the change of r along the curve.
     fn contact(&self, side: f64) -> Point {
         let k = self.flare.clamp(-MAX_FLARE, MAX_FLARE);
