@@ -9,6 +9,8 @@ pub mod geometry;
 pub mod pose;
 pub mod drawing;
 pub mod disk;
+pub mod photo;
+pub mod face;
 pub mod emotion;
 pub mod script;
 pub mod timing;

@@ -131,7 +131,7 @@ fn our_pixels_are_those_that_resvg_makes_of_our_svg() {
         for (label, pose) in emotions_and_mouths() {
             let drawing = figure.draw(&pose);
             let ours = Painter::new(640, 360).unwrap().paint(&drawing);
-            let tree = resvg::usvg::Tree::from_str(&to_svg(&drawing, 640, 360), &resvg::usvg::Options::default());
+            let tree = usvg::Tree::from_str(&to_svg(&drawing, 640, 360), &usvg::Options::default());
             let mut canvas = tiny_skia::Pixmap::new(640, 360).unwrap();
             resvg::render(&tree.unwrap(), tiny_skia::Transform::identity(), &mut canvas.as_mut());
             let theirs = Picture { width: 640, height: 360, rgba: canvas.data().to_vec() };

@@ -4,8 +4,10 @@
 
 mod colour;
 mod fingerprint;
+mod oklab;
 
 pub use colour::Colour;
+pub use oklab::{Oklab, Oklch};
 
 use crate::geometry::{Affine, BezPath, Point, Rect, Ribbon};
 

@@ -1,0 +1,296 @@
+//! `face.toml`: a face as a person can read, diff and correct it.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use serde::Deserialize;
+
+use super::{Beard, Colours, Face, FeaturePoint, Hair, HairKind, How, Measures, PhotoRecord, Placed};
+use crate::disk::{Fault, Result, from_toml, nearest};
+use crate::drawing::Colour;
+use crate::geometry::Point;
+
+/// The only `format` there is.
+const FORMAT: u32 = 1;
+/// The farthest that a coordinate may lie from a photo's corner, in pixels.
+const MAX_COORDINATE: f64 = 100_000.0;
+/// The most vertices of an outline of hair.
+const MAX_VERTICES: usize = 2_000;
+/// The most outlines of hair.
+const MAX_OUTLINES: usize = 64;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileTable {
+    format: u32,
+    points: BTreeMap<String, PointTable>,
+    colours: ColoursTable,
+    measures: MeasuresTable,
+    hair: HairTable,
+    photo: PhotoTable,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PointTable {
+    x: f64,
+    y: f64,
+    #[serde(default = "sure")]
+    confidence: f64,
+    how: How,
+}
+
+fn sure() -> f64 {
+    1.0
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ColoursTable {
+    skin: Colour,
+    hair: Colour,
+    lips: Colour,
+    iris: Colour,
+    brows: Colour,
+    beard: Colour,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeasuresTable {
+    jaw: [f64; 2],
+    brow_height: f64,
+    neck: f64,
+    beard: BeardTable,
+    ears: [f64; 2],
+    head_top: f64,
+    #[serde(default)]
+    glasses: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BeardTable {
+    chin: f64,
+    jaw: f64,
+    cheek: f64,
+    lip: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HairTable {
+    #[serde(default)]
+    kind: HairKind,
+    #[serde(default)]
+    vertices: Vec<usize>,
+    #[serde(default)]
+    front: Vec<Vec<[f64; 2]>>,
+    #[serde(default)]
+    back: Vec<Vec<[f64; 2]>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PhotoTable {
+    sha256: String,
+    size: [u32; 2],
+}
+
+impl Face {
+    /// Reads the text of a `face.toml`.
+    ///
+    /// # Errors
+    /// When it is damaged, a point is missing or unknown, or a number cannot be; names the line where it is known.
+    pub fn parse(text: &str) -> Result<Self> {
+        let table: FileTable = from_toml(text)?;
+        if table.format != FORMAT {
+            return Err(Fault::new(format!("format {} is not known to this version", table.format))
+                .help(format!("this version reads format {FORMAT}")));
+        }
+        let line_of = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map(|l| l + 1);
+        let at_line = |fault: Fault, what: &str| match line_of(what) {
+            Some(line) => fault.line(line),
+            None => fault,
+        };
+        let names: Vec<String> = FeaturePoint::all().map(FeaturePoint::name).collect();
+        let mut placed: BTreeMap<FeaturePoint, Placed> = BTreeMap::new();
+        for (name, row) in &table.points {
+            let key = format!("\"{name}\"");
+            let Some(point) = FeaturePoint::named(name) else {
+                let known: Vec<&str> = names.iter().map(String::as_str).collect();
+                let near = nearest(name, &known).map(|n| format!("did you mean \"{n}\"? ")).unwrap_or_default();
+                return Err(at_line(Fault::new(format!("there is no feature point \"{name}\"")), &key)
+                    .help(format!("{near}the 72 are 4.6, 4.4a … 10.5 and h.1 to h.25")));
+            };
+            if ![row.x, row.y].iter().all(|v| v.abs() <= MAX_COORDINATE) {
+                return Err(at_line(Fault::new(format!("point {name} lies nowhere near a photo")), &key)
+                    .help("give pixels of the photo"));
+            }
+            if !(0.0..=1.0).contains(&row.confidence) {
+                return Err(at_line(Fault::new(format!("the confidence of point {name} is not from 0 to 1")), &key)
+                    .help("write 1 for a point that you have set, or leave it out"));
+            }
+            placed.insert(point, Placed { at: Point::new(row.x, row.y), confidence: row.confidence, how: row.how });
+        }
+        let missing = |points: &mut dyn Iterator<Item = FeaturePoint>| {
+            points.filter(|p| !placed.contains_key(p)).map(FeaturePoint::name).collect::<Vec<_>>()
+        };
+        let lost = missing(&mut FeaturePoint::fixed());
+        if !lost.is_empty() {
+            return Err(Fault::new(format!("[points] lacks {}", lost.join(", ")))
+                .help("run `lianpu face PROJECT` to find the points again; what a hand has set is kept"));
+        }
+        let hairless = missing(&mut (0..FeaturePoint::HAIR).map(FeaturePoint::hair));
+        if !hairless.is_empty() && hairless.len() != FeaturePoint::HAIR {
+            return Err(Fault::new(format!("[points] lacks {}", hairless.join(", ")))
+                .help("hair has 25 points, or none where the head is bald"));
+        }
+        let points = std::array::from_fn(|i| placed[&FeaturePoint::all().nth(i).expect("below 72")]);
+        let hair_points = hairless.is_empty().then(|| std::array::from_fn(|n| placed[&FeaturePoint::hair(n)]));
+        let measures = measures(&table.measures).map_err(|(fault, what)| at_line(fault, what))?;
+        let outlines = |lists: &[Vec<[f64; 2]>], what: &str| -> Result<Vec<Vec<Point>>> {
+            let fits = lists.len() <= MAX_OUTLINES
+                && lists.iter().all(|l| (3..=MAX_VERTICES).contains(&l.len()))
+                && lists.iter().flatten().flatten().all(|v| v.abs() <= MAX_COORDINATE);
+            if !fits {
+                return Err(at_line(Fault::new(format!("the outlines `{what}` of the hair cannot be")), what).help(
+                    format!("at most {MAX_OUTLINES} outlines of 3 to {MAX_VERTICES} vertices, in pixels of the photo"),
+                ));
+            }
+            Ok(lists.iter().map(|l| l.iter().map(|[x, y]| Point::new(*x, *y)).collect()).collect())
+        };
+        let front = outlines(&table.hair.front, "front")?;
+        let back = outlines(&table.hair.back, "back")?;
+        let vertices = table.hair.vertices;
+        let along = front.first().map_or(0, Vec::len);
+        if !vertices.is_empty()
+            && (vertices.len() != FeaturePoint::HAIR || vertices.iter().any(|v| *v >= along) || hair_points.is_none())
+        {
+            return Err(at_line(Fault::new("`vertices` of the hair does not fit its outline"), "vertices")
+                .help("it has one place in the first outline of `front` for each of h.1 to h.25; or leave it out"));
+        }
+        let photo = table.photo;
+        if photo.sha256.len() != 64 || !photo.sha256.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return Err(at_line(Fault::new("`sha256` is not 64 hexadecimal digits"), "sha256")
+                .help("run `lianpu face PROJECT` to have it written"));
+        }
+        Ok(Self {
+            points,
+            colours: Colours {
+                skin: table.colours.skin,
+                hair: table.colours.hair,
+                lips: table.colours.lips,
+                iris: table.colours.iris,
+                brows: table.colours.brows,
+                beard: table.colours.beard,
+            },
+            measures,
+            hair: Hair { kind: table.hair.kind, points: hair_points, front, vertices, back },
+            photo: PhotoRecord { sha256: photo.sha256, size: photo.size },
+        })
+    }
+
+    /// The text of the `face.toml`.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut out = format!("format = {FORMAT}\n\n[points]\n");
+        for point in FeaturePoint::all() {
+            let Some(placed) = self.placed(point) else { continue };
+            let how = match placed.how {
+                How::Found => "found",
+                How::Rule => "rule",
+                How::Hand => "hand",
+            };
+            let _ = writeln!(
+                out,
+                "\"{point}\" = {{ x = {:.1}, y = {:.1}, confidence = {:.2}, how = \"{how}\" }}",
+                placed.at.x, placed.at.y, placed.confidence
+            );
+        }
+        let c = &self.colours;
+        let _ = write!(
+            out,
+            "\n[colours]\nskin = \"{}\"\nhair = \"{}\"\nlips = \"{}\"\niris = \"{}\"\nbrows = \"{}\"\nbeard = \"{}\"\n",
+            c.skin, c.hair, c.lips, c.iris, c.brows, c.beard
+        );
+        let m = &self.measures;
+        let _ = write!(
+            out,
+            "\n[measures]\njaw = [{:.3}, {:.3}]\nbrow_height = {:.4}\nneck = {:.3}\n\
+             beard = {{ chin = {:.3}, jaw = {:.3}, cheek = {:.3}, lip = {:.3} }}\n\
+             ears = [{:.2}, {:.2}]\nhead_top = {:.1}\nglasses = {:.2}\n",
+            m.jaw[0],
+            m.jaw[1],
+            m.brow_height,
+            m.neck,
+            m.beard.chin,
+            m.beard.jaw,
+            m.beard.cheek,
+            m.beard.lip,
+            m.ears[0],
+            m.ears[1],
+            m.head_top,
+            m.glasses
+        );
+        let kind = match self.hair.kind {
+            HairKind::Straight => "straight",
+            HairKind::Wavy => "wavy",
+            HairKind::Curly => "curly",
+            HairKind::Shaved => "shaved",
+            HairKind::Bald => "bald",
+        };
+        let _ = writeln!(out, "\n[hair]\nkind = \"{kind}\"");
+        if !self.hair.vertices.is_empty() {
+            let _ = writeln!(out, "vertices = {:?}", self.hair.vertices);
+        }
+        for (name, outlines) in [("front", &self.hair.front), ("back", &self.hair.back)] {
+            let lists: Vec<String> = outlines
+                .iter()
+                .map(|o| {
+                    let pairs: Vec<String> = o.iter().map(|p| format!("[{:.1}, {:.1}]", p.x, p.y)).collect();
+                    format!("[{}]", pairs.join(", "))
+                })
+                .collect();
+            if !lists.is_empty() {
+                let _ = writeln!(out, "{name} = [\n  {},\n]", lists.join(",\n  "));
+            }
+        }
+        let _ = write!(
+            out,
+            "\n[photo]\nsha256 = \"{}\"\nsize = [{}, {}]\n",
+            self.photo.sha256, self.photo.size[0], self.photo.size[1]
+        );
+        // Not "-0.0": two runs whose zeros differ in sign write the same bytes.
+        out.replace("-0.0,", "0.0,").replace("-0.0]", "0.0]")
+    }
+}
+
+/// Checks the measures; a fault comes with the key that it is about.
+fn measures(table: &MeasuresTable) -> Result<Measures, (Fault, &'static str)> {
+    let within = |value: f64, low: f64, high: f64, key: &'static str| {
+        if (low..=high).contains(&value) {
+            Ok(value)
+        } else {
+            Err((
+                Fault::new(format!("`{key}` of the face is {value}"))
+                    .help(format!("write a number from {low} to {high}")),
+                key,
+            ))
+        }
+    };
+    Ok(Measures {
+        jaw: [within(table.jaw[0], 0.0, 2.0, "jaw")?, within(table.jaw[1], 0.0, 2.0, "jaw")?],
+        brow_height: within(table.brow_height, 0.0, 1.0, "brow_height")?,
+        neck: within(table.neck, 0.2, 2.0, "neck")?,
+        beard: Beard {
+            chin: within(table.beard.chin, -1.0, 1.0, "beard")?,
+            jaw: within(table.beard.jaw, -1.0, 1.0, "beard")?,
+            cheek: within(table.beard.cheek, -1.0, 1.0, "beard")?,
+            lip: within(table.beard.lip, -1.0, 1.0, "beard")?,
+        },
+        ears: [within(table.ears[0], 0.0, 1.0, "ears")?, within(table.ears[1], 0.0, 1.0, "ears")?],
+        head_top: within(table.head_top, -MAX_COORDINATE, MAX_COORDINATE, "head_top")?,
+        glasses: within(table.glasses, 0.0, 1.0, "glasses")?,
+    })
+}
