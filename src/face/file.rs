@@ -148,7 +148,10 @@ impl Face {
         }
         let points = std::array::from_fn(|i| placed[&FeaturePoint::all().nth(i).expect("below 72")]);
         let hair_points = hairless.is_empty().then(|| std::array::from_fn(|n| placed[&FeaturePoint::hair(n)]));
-        let measures = measures(&table.measures).map_err(|(fault, what)| at_line(fault, what))?;
+        let measures = measures(&table.measures).map_err(|wrong| {
+            let (fault, what) = *wrong;
+            at_line(fault, what)
+        })?;
         let outlines = |lists: &[Vec<[f64; 2]>], what: &str| -> Result<Vec<Vec<Point>>> {
             let fits = lists.len() <= MAX_OUTLINES
                 && lists.iter().all(|l| (3..=MAX_VERTICES).contains(&l.len()))
@@ -267,16 +270,13 @@ impl Face {
 }
 
 /// Checks the measures; a fault comes with the key that it is about.
-fn measures(table: &MeasuresTable) -> Result<Measures, (Fault, &'static str)> {
+fn measures(table: &MeasuresTable) -> Result<Measures, Box<(Fault, &'static str)>> {
     let within = |value: f64, low: f64, high: f64, key: &'static str| {
         if (low..=high).contains(&value) {
             Ok(value)
         } else {
-            Err((
-                Fault::new(format!("`{key}` of the face is {value}"))
-                    .help(format!("write a number from {low} to {high}")),
-                key,
-            ))
+            let fault = Fault::new(format!("`{key}` of the face is {value}"));
+            Err(Box::new((fault.help(format!("write a number from {low} to {high}")), key)))
         }
     };
     Ok(Measures {
