@@ -13,7 +13,7 @@ use crate::geometry::Point;
 /// The only `format` there is.
 const FORMAT: u32 = 1;
 /// The farthest that a coordinate may lie from a photo's corner, in pixels.
-const MAX_COORDINATE: f64 = 100_000.0;
+pub const MAX_COORDINATE: f64 = 100_000.0;
 /// The most vertices of an outline of hair.
 const MAX_VERTICES: usize = 2_000;
 /// The most outlines of hair.

@@ -9,6 +9,7 @@ mod units;
 
 use std::ops::{Index, IndexMut};
 
+pub use file::MAX_COORDINATE;
 pub use point::{FeaturePoint, Part};
 pub use units::{Units, to_face_frame};
 

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Clip;
+use super::{Clip, LessonFace};
 use crate::disk::{Fault, Result};
+use crate::face::{Face, FeaturePoint, How, Placed};
+use crate::geometry::Point;
 use crate::timeline::{Key, Marker, Range};
 
 /// Something an author did, in one step.
@@ -96,6 +98,49 @@ pub enum Edit {
         /// The marker.
         marker: Marker,
     },
+    /// Where a feature point of a face is.
+    Point {
+        /// Number of the face.
+        face: usize,
+        /// The point's name.
+        point: String,
+        /// As it was.
+        before: Spot,
+        /// As it is to be.
+        after: Spot,
+    },
+    /// A face as a whole, as the text of its `face.toml`; none is a face without points.
+    Face {
+        /// Number of the face.
+        face: usize,
+        /// As it was.
+        before: Option<String>,
+        /// As it is to be.
+        after: Option<String>,
+    },
+}
+
+/// A feature point's place, as an edit keeps it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Spot {
+    /// Pixels of the photo.
+    pub at: [f64; 2],
+    /// 0 to 1.
+    pub confidence: f64,
+    /// How it came to be.
+    pub how: How,
+}
+
+impl From<Placed> for Spot {
+    fn from(placed: Placed) -> Self {
+        Self { at: [placed.at.x, placed.at.y], confidence: placed.confidence, how: placed.how }
+    }
+}
+
+impl From<Spot> for Placed {
+    fn from(spot: Spot) -> Self {
+        Self { at: Point::new(spot.at[0], spot.at[1]), confidence: spot.confidence, how: spot.how }
+    }
 }
 
 impl Change {
@@ -126,11 +171,13 @@ impl Edit {
             Self::RemoveRange { clip, at, range } => Self::AddRange { clip, at, range },
             Self::AddMarker { clip, marker } => Self::RemoveMarker { clip, marker },
             Self::RemoveMarker { clip, marker } => Self::AddMarker { clip, marker },
+            Self::Point { face, point, before, after } => Self::Point { face, point, before: after, after: before },
+            Self::Face { face, before, after } => Self::Face { face, before: after, after: before },
         }
     }
 
     /// Makes the edit. What it says was must be what is.
-    pub(super) fn apply(&self, clips: &mut [Clip]) -> Result<()> {
+    pub(super) fn apply(&self, clips: &mut [Clip], faces: &mut [LessonFace]) -> Result<()> {
         match self {
             Self::Times { clip, first, before, after } => set_times(clip_of(clips, *clip)?, *first, before, after),
             Self::Label { clip, index, before, after } => {
@@ -182,6 +229,24 @@ impl Edit {
             }
             Self::AddMarker { clip, marker } => add(&mut clip_of(clips, *clip)?.score.markers, marker),
             Self::RemoveMarker { clip, marker } => remove(&mut clip_of(clips, *clip)?.score.markers, marker),
+            Self::Point { face, point, before, after } => {
+                let face = faces.get_mut(*face).and_then(|f| f.face.as_mut()).ok_or_else(stale)?;
+                let point = FeaturePoint::named(point).ok_or_else(stale)?;
+                let placed = face.placed_mut(point).filter(|p| Spot::from(**p) == *before).ok_or_else(stale)?;
+                if !after.at.iter().all(|v| v.abs() <= crate::face::MAX_COORDINATE) {
+                    return Err(Fault::new("the point would lie nowhere near the photo").help("move it back"));
+                }
+                *placed = (*after).into();
+                Ok(())
+            }
+            Self::Face { face, before, after } => {
+                let face = faces.get_mut(*face).ok_or_else(stale)?;
+                if face.face.as_ref().map(Face::to_toml) != *before {
+                    return Err(stale());
+                }
+                face.face = after.as_deref().map(Face::parse).transpose()?;
+                Ok(())
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest};
-use super::{Change, Clip};
+use super::{Change, Clip, LessonFace};
 use crate::disk::{Fault, Lock, Result, inside, nearest, read_text};
 use crate::figure::LineFigure;
 use crate::pose::MouthPreset;
@@ -23,6 +23,8 @@ pub struct Lesson {
     pub manifest: Manifest,
     /// Its clips, in the manifest's order.
     pub clips: Vec<Clip>,
+    /// Its faces, in the manifest's order.
+    pub faces: Vec<LessonFace>,
     /// Why it cannot be changed; none where it can.
     pub read_only: Option<String>,
     /// How many unsaved changes of an earlier run were brought back.
@@ -40,10 +42,12 @@ impl Lesson {
     pub fn read(root: &Path) -> Result<Self> {
         let manifest = Manifest::read(root)?;
         let clips = manifest.clips.iter().map(|entry| Clip::read(root, entry)).collect::<Result<Vec<_>>>()?;
+        let faces = manifest.faces.iter().map(|entry| LessonFace::read(root, entry)).collect::<Result<Vec<_>>>()?;
         Ok(Self {
             root: root.to_owned(),
             manifest,
             clips,
+            faces,
             read_only: Some("it was opened to be read".into()),
             recovered: 0,
             history: History::default(),
@@ -145,10 +149,10 @@ impl Lesson {
     fn apply(&mut self, change: &Change) -> Result<()> {
         let mut done: Vec<&super::Edit> = Vec::new();
         for edit in &change.edits {
-            if let Err(fault) = edit.apply(&mut self.clips) {
+            if let Err(fault) = edit.apply(&mut self.clips, &mut self.faces) {
                 // All or nothing: what was done is undone, which cannot fail for edits that were just applied.
                 for edit in done.into_iter().rev() {
-                    let _ = edit.inverse().apply(&mut self.clips);
+                    let _ = edit.inverse().apply(&mut self.clips, &mut self.faces);
                 }
                 return Err(fault);
             }

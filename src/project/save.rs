@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Clip, Lesson};
+use super::{Clip, Lesson, LessonFace};
 use crate::disk::{Fault, Result, write_whole};
 use crate::timeline::Score;
 use crate::timing::{self, Format};
@@ -21,6 +21,9 @@ impl Lesson {
         for clip in &mut self.clips {
             written.extend(clip.save()?);
         }
+        for face in &mut self.faces {
+            written.extend(face.save()?);
+        }
         if let Some(journal) = &mut self.journal {
             journal.clear()?;
         }
@@ -37,6 +40,16 @@ impl Lesson {
         match &mut self.journal {
             Some(journal) => journal.clear(),
             None => Ok(()),
+        }
+    }
+}
+
+impl LessonFace {
+    /// Writes `face.toml` where it differs. A face that lost its points keeps the file: it is the author's.
+    fn save(&mut self) -> Result<Option<PathBuf>> {
+        match &self.face {
+            Some(face) => write_changed(self.path(), &face.to_toml(), &mut self.seen),
+            None => Ok(None),
         }
     }
 }

@@ -1,0 +1,58 @@
+//! A face of a lesson: its photo, its points, and what an author made of them.
+
+use std::path::{Path, PathBuf};
+
+use super::manifest::FaceEntry;
+use super::save::checksum;
+use crate::disk::{Result, inside, read_text};
+use crate::face::Face;
+
+/// The file of a face's points.
+pub(super) const FACE_FILE: &str = "face.toml";
+
+/// What a neutral photo is called, in the order in which it is looked for.
+const NEUTRAL: [&str; 4] = ["neutral.png", "neutral.jpg", "neutral.jpeg", "neutral.webp"];
+
+/// A face in memory. Edits change `face`; the rest is as the files have it.
+#[derive(Debug, Clone)]
+pub struct LessonFace {
+    /// Its entry in the manifest.
+    pub entry: FaceEntry,
+    /// Its folder, which may not be there.
+    pub folder: PathBuf,
+    /// Its points and measures; none before they were found.
+    pub face: Option<Face>,
+    /// Its neutral photo.
+    pub photo: Option<PathBuf>,
+    /// The checksum of `face.toml` as it was last read or written.
+    pub(super) seen: Option<u32>,
+}
+
+impl LessonFace {
+    /// Reads a face of the project in `root`. A face without files is one: a line figure needs none.
+    ///
+    /// # Errors
+    /// When its `face.toml` is damaged, or a name leads out of the project.
+    pub fn read(root: &Path, entry: &FaceEntry) -> Result<Self> {
+        let folder = inside(root, &format!("faces/{}", entry.name))?;
+        let mut photo = None;
+        for name in NEUTRAL {
+            let path = inside(root, &format!("faces/{}/{name}", entry.name))?;
+            if photo.is_none() && path.is_file() {
+                photo = Some(path);
+            }
+        }
+        let path = inside(root, &format!("faces/{}/{FACE_FILE}", entry.name))?;
+        let (face, seen) = match path.is_file() {
+            true => (Some(Face::parse(&read_text(&path)?).map_err(|f| f.at(&path))?), checksum(&path)),
+            false => (None, None),
+        };
+        Ok(Self { entry: entry.clone(), folder, face, photo, seen })
+    }
+
+    /// Where its points are written.
+    #[must_use]
+    pub fn path(&self) -> PathBuf {
+        self.folder.join(FACE_FILE)
+    }
+}
