@@ -5,6 +5,7 @@ mod check;
 mod completions;
 mod convert;
 mod export;
+mod face;
 mod new;
 mod play;
 mod plot;
@@ -37,6 +38,8 @@ enum Command {
     Check(check::Args),
     /// Write lessons as frames and subtitles.
     Export(export::Args),
+    /// Find the points of a face in its photo, for its cartoon.
+    Face(face::Args),
     /// Play a clip's face in the terminal.
     Play(play::Args),
     /// Draw charts of a clip: ratios, change, timeline, faces, a frame.
@@ -87,6 +90,7 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::New(args)) => new::run(args, out),
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
+        Some(Command::Face(args)) => face::run(args, out),
         Some(Command::Play(args)) => play::run(args),
         Some(Command::Plot(args)) => plot::run(args, out),
         Some(Command::Convert(args)) => convert::run(args, out),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::output_fault;
 use crate::disk::Result;
-use crate::project::{NewLesson, create};
+use crate::project::{Made, NewLesson, create};
 use crate::script::System;
 
 /// Make a lesson from a recording and its script, from times, or from ratios.
@@ -29,7 +29,10 @@ pub struct Args {
     /// A ratio record, ratios.csv.
     #[arg(long, value_name = "FILE")]
     ratios: Option<PathBuf>,
-    /// The figure: line or cat.
+    /// A photo of whoever speaks, from the front, mouth closed: it becomes a cartoon.
+    #[arg(long, value_name = "PHOTO")]
+    neutral: Option<PathBuf>,
+    /// The figure: cartoon (which needs a photo), line or cat.
     #[arg(long, value_name = "NAME")]
     figure: Option<String>,
     /// The lesson's title; its folder's name where left out.
@@ -46,23 +49,31 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         system: args.from,
         timing: args.timing.clone(),
         ratios: args.ratios.clone(),
+        neutral: args.neutral.clone(),
         figure: args.figure.clone(),
     };
-    let lesson = create(&args.project, &new)?;
+    let Made { lesson, warnings } = create(&args.project, &new)?;
     let root = args.project.display();
-    let clip = &lesson.clips[0];
     let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
-    let syllables = match clip.syllables.len() {
-        0 => String::new(),
-        1 => ", 1 syllable".into(),
-        n => format!(", {n} syllables"),
-    };
-    say(format!("made {root}: {:.2} s{syllables}", clip.duration()))?;
-    for warning in &clip.warnings {
-        say(format!("note: {warning}"))?;
+    match lesson.clips.first() {
+        Some(clip) => {
+            let syllables = match clip.syllables.len() {
+                0 => String::new(),
+                1 => ", 1 syllable".into(),
+                n => format!(", {n} syllables"),
+            };
+            say(format!("made {root}: {:.2} s{syllables}", clip.duration()))?;
+            for warning in &clip.warnings {
+                say(format!("note: {warning}"))?;
+            }
+            if clip.timing.guessed {
+                say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;
+            }
+        }
+        None => say(format!("made {root}: a face, and no clip yet"))?,
     }
-    if clip.timing.guessed {
-        say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;
+    for warning in &warnings {
+        say(format!("note on the photo: {warning}"))?;
     }
     let quoted = if args.project.to_string_lossy().contains(' ') { format!("'{root}'") } else { root.to_string() };
     say("next, to see and correct it in the studio, and to write its frames:".into())?;

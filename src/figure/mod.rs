@@ -3,6 +3,8 @@
 //!
 //! A figure owns no time: it draws the pose it is given and remembers nothing.
 
+mod author_layer;
 pub mod line;
 
+pub use author_layer::{AuthorLayer, LayerPlace, MAX_LAYER_BYTES};
 pub use line::LineFigure;

@@ -7,7 +7,7 @@ mod plane;
 mod read;
 
 pub use plane::Plane;
-pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE};
+pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, sha256};
 
 use crate::drawing::Colour;
 

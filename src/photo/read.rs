@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
 use super::Photo;
@@ -23,6 +24,17 @@ impl Photo {
     /// When it cannot be read, is of another kind, is damaged, or is too large.
     pub fn read(path: &Path) -> Result<Self> {
         Self::decode(&read_bytes(path, MAX_PHOTO_BYTES)?).map_err(|fault| fault.at(path))
+    }
+
+    /// The photo of a file, and the file's SHA-256 as 64 hexadecimal digits.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_with_sum(path: &Path) -> Result<(Self, String)> {
+        let bytes = read_bytes(path, MAX_PHOTO_BYTES)?;
+        let photo = Self::decode(&bytes).map_err(|fault| fault.at(path))?;
+        let sum = sha256(&bytes);
+        Ok((photo, sum))
     }
 
     /// Decodes the bytes of a PNG, JPEG or WebP file, as [`read`](Self::read) does.
@@ -48,6 +60,12 @@ impl Photo {
         image.apply_orientation(orientation);
         Ok(flattened(image))
     }
+}
+
+/// The SHA-256 of bytes, as 64 hexadecimal digits.
+#[must_use]
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 const KINDS: [ImageFormat; 3] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP];

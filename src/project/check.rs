@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
-use super::lesson::figure_of_face;
-use super::{Clip, MANIFEST, Manifest};
-use crate::disk::Fault;
+use super::{Clip, LessonFace, MANIFEST, Manifest, figures};
+use crate::disk::{Fault, read_bytes};
+use crate::face::{FeaturePoint, How};
+use crate::figure::Figure;
+use crate::photo::{MAX_PHOTO_BYTES, sha256};
 use crate::script::Lang;
 use crate::timeline::KeyValue;
 
@@ -47,15 +49,60 @@ pub fn check(root: &Path) -> Vec<Finding> {
             Err(fault) => found.push(Finding::Wrong(fault)),
         }
     }
-    for face in &manifest.faces {
-        if let Err(fault) = figure_of_face(root, Some(face)) {
-            found.push(Finding::Wrong(fault));
+    for entry in &manifest.faces {
+        match LessonFace::read(root, entry) {
+            Ok(face) => found.extend(of_face(root, &face)),
+            Err(fault) => found.push(Finding::Wrong(fault)),
         }
-        if let Some(style) = &face.style {
-            found.push(Finding::Odd(format!(
-                "face {}: line figures have no styles, `{style}` changes nothing",
-                face.name
-            )));
+    }
+    found
+}
+
+fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
+    let name = &face.entry.name;
+    let odd = |text: String| Finding::Odd(format!("face {name}: {text}"));
+    let figure = match figures::figure(root, Some(face)) {
+        Ok(figure) => figure,
+        Err(fault) => return vec![Finding::Wrong(fault)],
+    };
+    let mut found = Vec::new();
+    let is_cartoon = matches!(figure, Figure::Cartoon(_));
+    match &face.face {
+        Some(points) => {
+            let set = FeaturePoint::all().filter_map(|p| points.placed(p)).filter(|p| p.how == How::Hand).count();
+            let by_hand = if set > 0 { format!(", {set} set by hand") } else { String::new() };
+            let drawn = if is_cartoon { "drawn as a cartoon" } else { "with points, drawn as a line figure" };
+            found.push(Finding::Fine(format!("face {name}: {drawn}{by_hand}")));
+            match &face.photo {
+                None => found.push(odd("its photo is not there, so its points cannot be found again".into())),
+                Some(path) => match read_bytes(path, MAX_PHOTO_BYTES).map(|bytes| sha256(&bytes)) {
+                    Ok(sum) if sum != points.photo.sha256 => {
+                        found.push(odd("its points are of another photo: `lianpu face` finds them in this one".into()));
+                    }
+                    Ok(_) => {}
+                    Err(fault) => found.push(Finding::Wrong(fault)),
+                },
+            }
+        }
+        None if is_cartoon => {
+            found.push(odd("its points are looked for each time; `lianpu face` finds and keeps them".into()));
+        }
+        None if face.photo.is_some() => {
+            found.push(odd("it has a photo and no points yet: `lianpu face` finds them for a cartoon".into()));
+        }
+        None => {}
+    }
+    if let (false, Some(style)) = (is_cartoon, &face.entry.style) {
+        found.push(odd(format!("line figures have no styles, `{style}` changes nothing")));
+    }
+    if !is_cartoon && !face.entry.layers.is_empty() {
+        found.push(odd("line figures have no layers of their own, `layers` changes nothing".into()));
+    }
+    for entry in face.entry.layers.iter().filter(|_| is_cartoon) {
+        if let Ok(layer) = figures::layer(root, entry)
+            && !layer.left_out.is_empty()
+        {
+            found.push(odd(format!("`{}` is drawn without {}", entry.file, layer.left_out.join(", "))));
         }
     }
     found

@@ -4,10 +4,13 @@
 use std::path::{Path, PathBuf};
 
 use super::Lesson;
+use super::face::FACE_FILE;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::Record;
+use crate::face::{Created, Warning};
 use crate::figure::LineFigure;
+use crate::photo::{Photo, sha256};
 use crate::script::System;
 use crate::timing::{self, Format};
 
@@ -29,15 +32,26 @@ pub struct NewLesson {
     pub timing: Option<PathBuf>,
     /// A ratio record.
     pub ratios: Option<PathBuf>,
+    /// The neutral photo of whoever speaks.
+    pub neutral: Option<PathBuf>,
     /// The figure.
     pub figure: Option<String>,
+}
+
+/// A lesson that was made.
+#[derive(Debug)]
+pub struct Made {
+    /// The lesson, read back.
+    pub lesson: Lesson,
+    /// What there is to say of its photo.
+    pub warnings: Vec<Warning>,
 }
 
 /// Makes the lesson `root` and returns it, read back.
 ///
 /// # Errors
 /// When the folder is taken, or an input cannot be used; then nothing is left behind.
-pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
+pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     let Some(name) = root.file_name().and_then(|n| n.to_str()).map(str::to_owned) else {
         return Err(Fault::new(format!("`{}` does not end in a name for the lesson", root.display()))
             .help("give the folder to make, such as lessons/nihao")
@@ -48,9 +62,10 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
     if taken {
         return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
     }
-    if new.speech.is_none() && new.timing.is_none() && new.ratios.is_none() {
-        return Err(Fault::new("a lesson needs a recording, times, or ratios")
-            .help("give --speech FILE --script FILE, or --timing FILE, or --ratios FILE")
+    let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some();
+    if !has_clip && new.neutral.is_none() {
+        return Err(Fault::new("a lesson needs a photo, a recording, times, or ratios")
+            .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, or --ratios FILE")
             .of_the_call());
     }
     if new.speech.is_some() && new.script.is_none() && new.timing.is_none() {
@@ -62,9 +77,15 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let figure = new.figure.as_deref().unwrap_or("line");
-    LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
+    let figure = new.figure.as_deref().unwrap_or(if new.neutral.is_some() { CARTOON } else { "line" });
+    if figure != CARTOON {
+        LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
+    } else if new.neutral.is_none() {
+        return Err(Fault::new("a cartoon needs a photo").help("give --neutral PHOTO").of_the_call());
+    }
     check_inputs(new)?;
+    // Before a folder is made: a photo in which no face is found leaves nothing behind.
+    let face = new.neutral.as_deref().map(NewFace::of).transpose()?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")
@@ -77,16 +98,22 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
         onsets: Default::default(),
         take_of: None,
     };
-    fill(draft.path(), &clip, new)?;
+    if has_clip {
+        fill(draft.path(), &clip, new)?;
+    }
+    if let Some(face) = &face {
+        face.write(&draft.path().join("faces").join(FACE))?;
+    }
     let manifest = Manifest {
         title: clean_line(new.title.as_deref().unwrap_or(&name), 200),
         faces: vec![FaceEntry {
-            name: "teacher".into(),
+            name: FACE.into(),
             figure: Some(figure.into()),
             style: None,
             mouths: Default::default(),
+            layers: Vec::new(),
         }],
-        clips: vec![clip],
+        clips: if has_clip { vec![clip] } else { Vec::new() },
         output: Output::default(),
     };
     write_whole(&draft.path().join(MANIFEST), manifest.to_toml().as_bytes())?;
@@ -111,7 +138,37 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Lesson> {
         Fault::io("cannot make the lesson's folder", root, e)
     })?;
     open_to_others(root);
-    Lesson::read(root)
+    let warnings = face.map_or_else(Vec::new, |f| f.created.warnings);
+    Ok(Made { lesson: Lesson::read(root)?, warnings })
+}
+
+/// What the face of a new lesson is called.
+const FACE: &str = "teacher";
+/// The figure that is drawn from a photo.
+const CARTOON: &str = "cartoon";
+/// A photo is kept at most so many pixels wide and high: a cartoon needs no more, and a repository thanks for it.
+const KEPT_SIDE: usize = 2000;
+
+/// The face of a new lesson: its photo as it is kept, without anything but its pixels, and what was found in it.
+struct NewFace {
+    png: Vec<u8>,
+    created: Created,
+}
+
+impl NewFace {
+    fn of(path: &Path) -> Result<Self> {
+        let photo = Photo::read(path)?;
+        let (kept, _) = photo.at_most(KEPT_SIDE);
+        let png = kept.to_clean_png();
+        let created = crate::face::create(&kept, &sha256(&png), None, None).map_err(|r| r.fault().at(path))?;
+        Ok(Self { png, created })
+    }
+
+    fn write(&self, folder: &Path) -> Result<()> {
+        std::fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+        write_whole(&folder.join("neutral.png"), &self.png)?;
+        write_whole(&folder.join(FACE_FILE), self.created.face.to_toml().as_bytes())
+    }
 }
 
 /// Reads every input where it is, before a folder is made, so that a fault names the author's file and nothing is left.

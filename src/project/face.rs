@@ -1,11 +1,13 @@
 //! A face of a lesson: its photo, its points, and what an author made of them.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::manifest::FaceEntry;
 use super::save::checksum;
 use crate::disk::{Result, inside, read_text};
-use crate::face::Face;
+use crate::face::{Face, create};
+use crate::photo::Photo;
 
 /// The file of a face's points.
 pub(super) const FACE_FILE: &str = "face.toml";
@@ -48,6 +50,28 @@ impl LessonFace {
             false => (None, None),
         };
         Ok(Self { entry: entry.clone(), folder, face, photo, seen })
+    }
+
+    /// Whether the face has points to draw a cartoon from.
+    #[must_use]
+    pub fn has_cartoon(&self) -> bool {
+        self.face.is_some()
+    }
+
+    /// Its points; where they were never looked for, they are now, and kept in memory only.
+    ///
+    /// # Errors
+    /// When its photo cannot be read, or no face is found in it.
+    pub fn points(&self) -> Result<Option<Cow<'_, Face>>> {
+        match (&self.face, &self.photo) {
+            (Some(face), _) => Ok(Some(Cow::Borrowed(face))),
+            (None, None) => Ok(None),
+            (None, Some(path)) => {
+                let (photo, sha256) = Photo::read_with_sum(path)?;
+                let created = create(&photo, &sha256, None, None).map_err(|r| r.fault().at(path))?;
+                Ok(Some(Cow::Owned(created.face)))
+            }
+        }
     }
 
     /// Where its points are written.

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use super::history::History;
 use super::journal::Journal;
-use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest};
+use super::figures;
+use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::{Change, Clip, LessonFace};
-use crate::disk::{Fault, Lock, Result, inside, nearest, read_text};
-use crate::figure::LineFigure;
+use crate::disk::{Fault, Lock, Result, nearest};
+use crate::figure::Figure;
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
 
@@ -181,6 +182,26 @@ impl Lesson {
         }
     }
 
+    /// The number of the face of that name, or of the first one where none is named.
+    ///
+    /// # Errors
+    /// When there is none of that name, with the names there are; or when the lesson has no faces.
+    pub fn face_named(&self, name: Option<&str>) -> Result<usize> {
+        let known: Vec<&str> = self.faces.iter().map(|f| f.entry.name.as_str()).collect();
+        match name {
+            Some(name) => known.iter().position(|k| *k == name).ok_or_else(|| {
+                let near = nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
+                Fault::new(format!("there is no face `{name}`"))
+                    .at(self.root.join(MANIFEST))
+                    .help(format!("{near}faces: {}", known.join(", ")))
+            }),
+            None if known.is_empty() => {
+                Err(Fault::new("the lesson has no faces").at(self.root.join(MANIFEST)).help("add a [[face]]"))
+            }
+            None => Ok(0),
+        }
+    }
+
     /// Which nine mouth shapes a clip's face has.
     #[must_use]
     pub fn mouths_of(&self, clip: &ClipEntry) -> MouthPreset {
@@ -197,9 +218,18 @@ impl Lesson {
     /// The figure that a clip is drawn with.
     ///
     /// # Errors
-    /// When the manifest names one that does not exist or is damaged.
-    pub fn figure_of(&self, clip: &ClipEntry) -> Result<LineFigure> {
-        figure_of_face(&self.root, self.manifest.face_of(clip))
+    /// When the manifest names one that does not exist or is damaged, or the cartoon of a face without points.
+    pub fn figure_of(&self, clip: &ClipEntry) -> Result<Figure> {
+        let face = self.manifest.face_of(clip).and_then(|e| self.faces.iter().find(|f| f.entry.name == e.name));
+        figures::figure(&self.root, face)
+    }
+
+    /// The cartoon of a face, whatever figure the manifest names.
+    ///
+    /// # Errors
+    /// When the face has no points, or its style or a layer is damaged.
+    pub fn cartoon_of(&self, face: &LessonFace) -> Result<Figure> {
+        figures::cartoon(&self.root, face)
     }
 }
 
@@ -212,37 +242,6 @@ pub(super) fn refusal(what: &str, why: &str) -> Fault {
 
 /// Why a lesson is read-only that somebody is working on.
 const ELSEWHERE: &str = "it is open in another window";
-
-/// The figure of a face; the line face where there is no face, or it names none.
-pub(super) fn figure_of_face(root: &Path, face: Option<&FaceEntry>) -> Result<LineFigure> {
-    let named = face.and_then(|f| f.figure.as_deref()).unwrap_or("line");
-    let in_manifest = |fault: Fault| {
-        let line = std::fs::read_to_string(root.join(MANIFEST))
-            .ok()
-            .and_then(|text| text.lines().position(|l| l.contains("figure") && l.contains(named)));
-        let fault = fault.at(root.join(MANIFEST));
-        match line {
-            Some(line) => fault.line(line + 1),
-            None => fault,
-        }
-    };
-    match named.strip_prefix("figures/") {
-        Some(_) => {
-            let path = inside(root, named).map_err(in_manifest)?;
-            if !path.is_file() {
-                return Err(in_manifest(
-                    Fault::new(format!("there is no file `{named}` in the lesson"))
-                        .help("put the figure there, or write figure = \"line\""),
-                ));
-            }
-            LineFigure::parse(&read_text(&path)?).map_err(|f| f.at(&path))
-        }
-        None if named == "cartoon" => Err(in_manifest(
-            Fault::new("the figure `cartoon` cannot be drawn by this version").help("write figure = \"line\""),
-        )),
-        None => LineFigure::built_in(named).map_err(in_manifest),
-    }
-}
 
 /// The projects in a folder, by name; the folder itself where it is one.
 ///

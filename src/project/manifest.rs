@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::disk::{Fault, Result, clean_line, from_toml, nearest, plain_name, read_text};
+use crate::figure::LayerPlace;
 use crate::pose::MouthPreset;
 use crate::render::MAX_SIDE;
 use crate::script::{OnsetPreset, System};
@@ -37,15 +38,31 @@ pub struct Manifest {
 pub struct FaceEntry {
     /// Its name, which is its folder's.
     pub name: String,
-    /// `line`, `cat`, or a file `figures/NAME.toml`.
+    /// `cartoon`, `line`, `cat`, or a file `figures/NAME.toml`; where left out `cartoon` once the face has points,
+    /// else `line`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub figure: Option<String>,
-    /// The style; line figures have only their own.
+    /// The cartoon's style: `normal`, `brows`, `cute`, `ink`, or a file `styles/NAME.toml`. Line figures have only
+    /// their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub style: Option<String>,
     /// Which nine mouth shapes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub mouths: MouthPreset,
+    /// Layers of the author's own, back to front.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<LayerEntry>,
+}
+
+/// A layer of the author's own: an SVG file that covers the figure's whole view.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LayerEntry {
+    /// `layers/NAME.svg`.
+    pub file: String,
+    /// Where it is drawn.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub place: LayerPlace,
 }
 
 /// A clip of the lesson, one recording; its files are in `clips/NAME/`.

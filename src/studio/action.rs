@@ -87,6 +87,32 @@ pub enum Action {
     DropAndGo,
     /// Close what lies on top and change nothing.
     Close,
+    /// Open the face of the clip.
+    Face,
+    /// Choose another feature point.
+    Point(i32),
+    /// Go to a feature point by its name.
+    GoTo,
+    /// Move the feature point by so many pixels of the photo.
+    Move(i32, i32),
+    /// Let both sides of the face move, or one.
+    Both,
+    /// Find the face's points again.
+    FindAgain,
+    /// Give the feature point back to the search.
+    Release,
+    /// Place the face by hand, where the search fails.
+    Anchors,
+    /// Take the place of the cross.
+    Place,
+    /// The next way for hair to fall.
+    Hair,
+    /// Show the cartoon with another emotion.
+    Emotion(i32),
+    /// Show the cartoon with another mouth shape.
+    Mouth(i32),
+    /// Show another stage of the search.
+    Stage(i32),
 }
 
 /// How far a boundary is moved.

@@ -19,6 +19,8 @@ pub struct Editor {
     pub timeline: Timeline,
     /// Who is drawn.
     pub figure: LineFigure,
+    /// Counts how often the figure has changed while the clip is open.
+    pub figure_version: u64,
     /// The instant that is looked at, in seconds.
     pub cursor: f64,
     /// What of the clip is on the screen.
@@ -76,6 +78,7 @@ impl Editor {
             window: Window { from: 0.0, span: timeline.duration().min(FIRST_SIGHT) },
             timeline,
             figure,
+            figure_version: 0,
             cursor: 0.0,
             lane: Lane::Syllables,
             syllable: None,

@@ -64,6 +64,7 @@ pub(super) fn retrace(state: &mut State, action: Action) {
     match done {
         Ok(Some(label)) => {
             rebuild(state);
+            super::face_edits::show(state);
             state.say(format!("{word}: {label}"));
         }
         Ok(None) if action == Action::Redo => state.say("nothing to make again"),

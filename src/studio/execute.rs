@@ -10,8 +10,9 @@ use super::export::{ExportRequest, Progress};
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
-use super::{Action, Place, edits};
+use super::{Action, Place, edits, face_edits};
 use crate::export::Format;
+use crate::face::{Anchors, Face};
 use crate::speech::Sound;
 
 /// Work that takes long enough to be done elsewhere.
@@ -27,6 +28,28 @@ pub enum Job {
         clip: usize,
         /// Its sound.
         sound: Sound,
+    },
+    /// Read the photo of a face, and work out the stages of the search.
+    Photo {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// The photo's file.
+        path: PathBuf,
+    },
+    /// Find the points of a face.
+    FindFace {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// The photo's file.
+        path: PathBuf,
+        /// The face so far: what a hand has set in it stays.
+        kept: Option<Box<Face>>,
+        /// Four places given by hand.
+        anchors: Option<Anchors>,
     },
     /// Export.
     Export {
@@ -61,7 +84,9 @@ pub fn execute(state: &mut State, action: Action) -> Option<Job> {
         Action::Save => save(state),
         Action::Export => ask_export(state),
         Action::Undo | Action::Redo => edits::retrace(state, action),
+        Action::Face => return face_edits::open(state),
         _ if !state.overlays.is_empty() => return on_top(state, action),
+        _ if state.face.is_some() => return face_edits::execute(state, action),
         _ => on_timeline(state, action),
     }
     None
@@ -126,6 +151,12 @@ fn back(state: &mut State) {
             }
             state.say("the mark is gone");
         }
+        Place::Face => {
+            let placing = state.face.as_mut().and_then(|desk| desk.placing.take());
+            if placing.is_none() {
+                state.face = None;
+            }
+        }
         // The changes stay with the lesson; they are asked about when the lesson is left.
         Place::Timeline => {
             if let (Some(editor), Some(open)) = (state.editor.take(), &mut state.open) {
@@ -155,6 +186,7 @@ fn go(state: &mut State, by: Action) {
     match by {
         Action::Quit => state.leaving = true,
         _ => {
+            state.face = None;
             state.editor = None;
             state.open = None;
         }
@@ -198,6 +230,7 @@ fn on_top(state: &mut State, action: Action) -> Option<Job> {
         }
         (Overlay::Confirm(by), Action::DropAndGo) => {
             let by = *by;
+            state.face = None;
             state.editor = None;
             match state.open.take().map(|open| open.lesson) {
                 Some(Ok(lesson)) => match lesson.discard() {
@@ -248,6 +281,13 @@ fn accept(state: &mut State) -> Option<Job> {
                 None
             }
         };
+    }
+    if prompt.purpose == Purpose::Point {
+        if let Err(fault) = face_edits::take_point(state, prompt.line.text().trim()) {
+            prompt.fault = Some(fault);
+            state.overlays.push(Overlay::Prompt(prompt));
+        }
+        return None;
     }
     if let Err(fault) = edits::take(state, prompt.purpose, prompt.line.text().trim()) {
         prompt.fault = Some(fault);

@@ -5,7 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::Action::{self, *};
 use super::action::Nudge;
-use Place::{Confirm, Export as Exporting, Help as Helping, Lesson, Player, Projects, Prompt, Timeline};
+use Place::{Confirm, Export as Exporting, Face as Facing, Help as Helping, Lesson, Player, Projects, Prompt, Timeline};
 
 /// Where a key is pressed: a screen, or what lies on top of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +16,8 @@ pub enum Place {
     Lesson,
     /// A clip's timeline.
     Timeline,
+    /// A face: its photo, its points, its cartoon.
+    Face,
     /// The full-terminal player.
     Player,
     /// The help.
@@ -30,10 +32,11 @@ pub enum Place {
 
 impl Place {
     /// The screens, as the README lists them.
-    const LISTED: [(Self, &'static str); 7] = [
+    const LISTED: [(Self, &'static str); 8] = [
         (Self::Projects, "Lessons"),
         (Self::Lesson, "A lesson"),
         (Self::Timeline, "The timeline of a clip"),
+        (Self::Face, "The points of a face"),
         (Self::Player, "`lianpu play`"),
         (Self::Prompt, "A line being typed"),
         (Self::Confirm, "Leaving with unsaved changes"),
@@ -136,15 +139,58 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),
     row(&[Timeline], &[("v", Mark)], "", "mark a stretch: from here, to here"),
     row(&[Timeline], &[("X", DeleteRange)], "", "delete the edit of a stretch"),
-    row(&[Timeline], &[("u", Undo), ("Ctrl-r", Redo)], "undo", "undo, redo"),
-    row(&[Timeline, Lesson], &[("s", Save), ("Ctrl-s", Save)], "save", "save the lesson"),
+    row(
+        &[Facing],
+        &[("Left", Move(-1, 0)), ("Right", Move(1, 0)), ("Up", Move(0, -1)), ("Down", Move(0, 1))],
+        "",
+        "move the point by 1 pixel of the photo",
+    ),
+    row(
+        &[Facing],
+        &[("Shift-Left", Move(-10, 0)), ("Shift-Right", Move(10, 0)), ("Shift-Up", Move(0, -10)), ("Shift-Down", Move(0, 10))],
+        "",
+        "move it by 10 pixels",
+    ),
+    row(
+        &[Facing],
+        &[("h", Move(-1, 0)), ("l", Move(1, 0)), ("k", Move(0, -1)), ("j", Move(0, 1))],
+        "",
+        "the same by letters: 1 pixel",
+    ),
+    row(
+        &[Facing],
+        &[("H", Move(-10, 0)), ("L", Move(10, 0)), ("K", Move(0, -10)), ("J", Move(0, 10))],
+        "",
+        "the same by letters: 10 pixels",
+    ),
+    row(&[Facing], &[("Tab", Point(1)), ("Shift-Tab", Point(-1))], "point", "next, previous point"),
+    row(&[Facing], &[("g", GoTo), ("/", GoTo)], "go to", "go to a point by its name"),
+    row(&[Facing], &[("b", Both)], "both", "move both sides of the face, or one"),
+    row(
+        &[Facing],
+        &[("+", Zoom(1)), ("=", Zoom(1)), ("-", Zoom(-1)), ("0", Fit)],
+        "zoom",
+        "nearer, farther, the whole face",
+    ),
+    row(&[Facing], &[("r", FindAgain)], "find", "find the points again (those set by hand stay)"),
+    row(&[Facing], &[("x", Release), ("Delete", Release)], "", "give a point that was set by hand back to the search"),
+    row(&[Facing], &[("o", Anchors)], "", "place eyes, mouth and chin by hand, where the search fails; give that up"),
+    row(&[Facing], &[("Enter", super::Action::Place)], "", "take the place of the cross"),
+    row(&[Facing], &[("v", Stage(1)), ("V", Stage(-1))], "stages", "next, previous stage of the search; the photo"),
+    row(&[Facing], &[("e", Emotion(1)), ("E", Emotion(-1))], "emotion", "show the next, previous emotion"),
+    row(&[Facing], &[("m", Mouth(1)), ("M", Mouth(-1))], "mouth", "show the next, previous mouth shape"),
+    row(&[Facing], &[("c", Hair)], "hair", "hair: straight, wavy, curly, shaved, bald"),
+    row(&[Timeline, Facing], &[("u", Undo), ("Ctrl-r", Redo)], "undo", "undo, redo"),
+    row(&[Timeline, Lesson, Facing], &[("s", Save), ("Ctrl-s", Save)], "save", "save the lesson"),
     row(&[Timeline, Lesson], &[("e", Export)], "export", "export"),
-    row(&[Projects, Lesson, Timeline, Player], &[("?", Help)], "help", "all keys of this place"),
-    row(&[Projects, Lesson, Timeline, Player], &[("Ctrl-l", Redraw)], "", "draw the screen anew"),
+    row(&[Timeline, Lesson], &[("f", Face)], "face", "the face: its photo, its points, its cartoon"),
+    row(&[Projects, Lesson, Timeline, Facing, Player], &[("?", Help)], "help", "all keys of this place"),
+    row(&[Projects, Lesson, Timeline, Facing, Player], &[("Ctrl-l", Redraw)], "", "draw the screen anew"),
     row(&[Projects, Player], &[("q", Quit), ("Esc", Quit), ("Ctrl-c", Quit)], "quit", "quit"),
     row(&[Lesson], &[("q", Back), ("Esc", Back), ("Left", Back)], "back", "back to the lessons"),
     row(&[Timeline], &[("q", Back), ("Esc", Back)], "back", "back to the lesson"),
-    row(&[Lesson, Timeline, Helping, Prompt, Confirm, Exporting], &[("Ctrl-c", Quit)], "", "quit the studio"),
+    row(&[Facing], &[("q", Back), ("Esc", Back)], "back", "back to where one was"),
+    row(&[Lesson, Timeline, Facing, Helping, Prompt, Confirm, Exporting], &[("Ctrl-c", Quit)], "", "quit the studio"),
     row(
         &[Helping],
         &[("Up", Scroll(-1)), ("Down", Scroll(1)), ("k", Scroll(-1)), ("j", Scroll(1))],
@@ -284,7 +330,7 @@ mod tests {
 
     #[test]
     fn no_key_asks_for_two_things_in_one_place() {
-        for place in [Projects, Lesson, Timeline, Player, Helping, Prompt, Confirm, Exporting] {
+        for place in [Projects, Lesson, Timeline, Facing, Player, Helping, Prompt, Confirm, Exporting] {
             let mut keys: Vec<&str> =
                 TABLE.iter().filter(|r| r.places.contains(&place)).flat_map(|r| r.keys).map(|(k, _)| *k).collect();
             keys.sort_unstable();

@@ -90,4 +90,6 @@ pub enum Purpose {
     },
     /// The formats of an export.
     Export,
+    /// The name of a feature point.
+    Point,
 }

@@ -5,6 +5,8 @@ use ratatui::layout::{Rect, Size};
 use ratatui::style::Style;
 
 use super::look::Colours;
+use super::photo_picture;
+use crate::drawing::Drawing;
 use crate::figure::LineFigure;
 use crate::pose::Pose;
 use crate::render::{Painter, Picture};
@@ -27,11 +29,21 @@ const DARK: u32 = 190;
 #[derive(Default)]
 pub struct FacePicture {
     painter: Option<Painter>,
-    shown: Option<(String, Pose, Size, Colours)>,
+    shown: Option<Shown>,
     size: Size,
     /// The figure as it is painted: the face alone, bold enough for so few pixels.
     close: Option<LineFigure>,
     cells: Vec<Cell>,
+}
+
+/// What a picture shows. A title and a version tell one figure or drawing from another.
+#[derive(Debug, Clone, PartialEq)]
+struct Shown {
+    title: String,
+    version: u64,
+    pose: Option<Pose>,
+    size: Size,
+    colours: Colours,
 }
 
 /// A cell: two pixels above each other, or eight dots.
@@ -54,13 +66,14 @@ impl FacePicture {
     }
 
     /// Paints the figure, unless it is painted so already.
-    pub fn show(&mut self, figure: &LineFigure, pose: &Pose, area: Rect, colours: Colours) {
+    pub fn show(&mut self, figure: &LineFigure, version: u64, pose: &Pose, area: Rect, colours: Colours) {
         let size = Self::size_in(figure, area.as_size());
-        let wanted = (figure.title().to_owned(), *pose, size, colours);
+        let wanted = Shown { title: figure.title().to_owned(), version, pose: Some(*pose), size, colours };
         if self.shown.as_ref() == Some(&wanted) {
             return;
         }
-        if self.size != size || self.shown.as_ref().is_none_or(|s| s.0 != wanted.0 || s.3 != colours) {
+        let other = |s: &Shown| s.title != wanted.title || s.version != version || s.colours != colours;
+        if self.size != size || self.shown.as_ref().is_none_or(other) {
             let (wide, high) = (u32::from(size.width) * FINER, u32::from(size.height) * 2 * FINER);
             self.painter = Painter::new(wide, high).ok();
             // A line thinner than a pixel is a grey haze.
@@ -71,14 +84,35 @@ impl FacePicture {
         let contrast = if size.height < SMALL { STRONGER } else { 0.0 };
         if let (Some(painter), Some(close)) = (&mut self.painter, &self.close) {
             let picture = painter.paint(&close.draw(pose));
-            for y in 0..u32::from(size.height) {
-                for x in 0..u32::from(size.width) {
-                    self.cells.push(cell(&picture, x * FINER, y * 2 * FINER, contrast, colours));
-                }
-            }
+            self.take(&picture, size, contrast, colours);
         }
         self.size = size;
         self.shown = Some(wanted);
+    }
+
+    /// Paints a drawing as large as an area allows, unless it is painted so already.
+    pub fn show_drawing(&mut self, drawing: &Drawing, version: u64, area: Rect, colours: Colours) {
+        let size = photo_picture::size_in(drawing.view, area.as_size());
+        let wanted = Shown { title: drawing.title.clone(), version, pose: None, size, colours };
+        if self.shown.as_ref() == Some(&wanted) {
+            return;
+        }
+        self.cells.clear();
+        let (wide, high) = (u32::from(size.width) * FINER, u32::from(size.height) * 2 * FINER);
+        if let Ok(mut painter) = Painter::new(wide, high) {
+            let picture = painter.paint(drawing);
+            self.take(&picture, size, 0.0, colours);
+        }
+        self.size = size;
+        self.shown = Some(wanted);
+    }
+
+    fn take(&mut self, picture: &Picture, size: Size, contrast: f32, colours: Colours) {
+        for y in 0..u32::from(size.height) {
+            for x in 0..u32::from(size.width) {
+                self.cells.push(cell(picture, x * FINER, y * 2 * FINER, contrast, colours));
+            }
+        }
     }
 
     /// Puts the picture into the middle of an area.
@@ -86,7 +120,7 @@ impl FacePicture {
         let (wide, high) = (self.size.width.min(area.width), self.size.height.min(area.height));
         let left = area.x + (area.width - wide) / 2;
         let top = area.y + (area.height - high) / 2;
-        let colours = self.shown.as_ref().map_or(Colours::None, |s| s.3);
+        let colours = self.shown.as_ref().map_or(Colours::None, |s| s.colours);
         for y in 0..high {
             for x in 0..wide {
                 let at = usize::from(y) * usize::from(self.size.width) + usize::from(x);
@@ -159,7 +193,7 @@ mod tests {
         let figure = LineFigure::built_in("line").unwrap();
         let area = Rect::new(0, 0, 28, 12);
         let mut picture = FacePicture::default();
-        picture.show(&figure, pose, area, colours);
+        picture.show(&figure, 0, pose, area, colours);
         let mut buffer = Buffer::empty(area);
         picture.put(&mut buffer, area);
         (picture, buffer)
@@ -178,7 +212,7 @@ mod tests {
         let (_, other) = painted(&Pose::of(Ratios::pure(Emotion::Surprised)), Colours::True);
         assert_ne!(first, other);
         neutral.painter = None;
-        neutral.show(&LineFigure::built_in("line").unwrap(), &Pose::default(), Rect::new(0, 0, 28, 12), Colours::True);
+        neutral.show(&LineFigure::built_in("line").unwrap(), 0, &Pose::default(), Rect::new(0, 0, 28, 12), Colours::True);
         assert!(!neutral.cells.is_empty());
     }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::Place;
 use super::editor::{Editor, Left};
+use super::face_desk::FaceDesk;
 use super::look::Colours;
 use super::overlay::Overlay;
 use crate::disk::Result;
@@ -23,6 +24,8 @@ pub struct State {
     pub open: Option<Open>,
     /// The clip on the desk.
     pub editor: Option<Editor>,
+    /// The face on the desk.
+    pub face: Option<FaceDesk>,
     /// What lies on top, the last one topmost.
     pub overlays: Vec<Overlay>,
     /// What there is to say.
@@ -88,6 +91,7 @@ impl State {
             chosen: 0,
             open: None,
             editor: None,
+            face: None,
             overlays: Vec::new(),
             message: None,
             busy: None,
@@ -107,6 +111,9 @@ impl State {
     /// The screen below everything that lies on top.
     #[must_use]
     pub fn screen(&self) -> Place {
+        if self.open.is_some() && self.face.is_some() {
+            return Place::Face;
+        }
         match (&self.open, &self.editor) {
             (Some(_), Some(_)) => Place::Timeline,
             (Some(_), None) => Place::Lesson,

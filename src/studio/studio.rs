@@ -1,20 +1,25 @@
 //! The studio without a terminal: keys and reports go in, a frame comes out.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use ratatui::Frame;
+use ratatui::layout::Rect;
 
-use super::draw::{self, Layout};
+use super::draw::{self, FaceLayout, Layout, Pictures};
 use super::execute::{Job, SILENT, execute};
+use super::face_desk::FaceDesk;
 use super::export::{Exporter, Progress};
 use super::overlay::Overlay;
 use super::picture::FacePicture;
 use super::state::{Open, State};
-use super::{Action, Place, keys, work};
+use super::{Action, Place, face_edits, keys, work};
 use crate::disk::Result;
+use crate::drawing::Drawing;
+use crate::face::Created;
+use crate::photo::Photo;
 use crate::project::{Finding, Lesson};
 use crate::speech::Sound;
 
@@ -41,6 +46,33 @@ pub enum Report {
         /// Its loudest sample.
         loudest: f32,
     },
+    /// The photo of a face was read, or cannot be.
+    PhotoRead {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// The photo.
+        photo: Box<Result<Arc<Photo>>>,
+    },
+    /// The stages of a photo are ready.
+    Staged {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// Each with its caption.
+        stages: Vec<(String, Drawing)>,
+    },
+    /// The points of a face were found, or not.
+    FaceFound {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// The face, and what there is to say of it.
+        found: Box<Result<Created>>,
+    },
     /// An export goes on.
     Exporting(Progress),
     /// An export has ended.
@@ -56,6 +88,9 @@ pub struct Studio {
     /// Threads that have not reported their end.
     under_way: usize,
     face: FacePicture,
+    /// The cartoon on the page of a face, and the stage of the search that is shown.
+    cartoon: FacePicture,
+    stage: FacePicture,
     /// Whether the last frame had no room for anything: nobody can see then what a key would do.
     too_small: bool,
 }
@@ -70,6 +105,8 @@ impl Studio {
             reports: unbounded(),
             under_way: 0,
             face: FacePicture::default(),
+            cartoon: FacePicture::default(),
+            stage: FacePicture::default(),
             too_small: false,
         }
     }
@@ -165,6 +202,46 @@ impl Studio {
                     editor.loudest = Some(loudest);
                 }
             }
+            Report::PhotoRead { root, face, photo } => match *photo {
+                Ok(photo) => {
+                    if let Some(desk) = self.desk_of(&root, face) {
+                        desk.photo = Some(photo);
+                    }
+                }
+                Err(fault) => {
+                    if self.desk_of(&root, face).is_some() {
+                        self.state.say_fault(&fault);
+                    }
+                }
+            },
+            Report::Staged { root, face, stages } => {
+                self.under_way -= 1;
+                if let Some(desk) = self.desk_of(&root, face) {
+                    desk.stages = stages;
+                    desk.version += 1;
+                }
+            }
+            Report::FaceFound { root, face, found } => {
+                self.under_way -= 1;
+                self.state.busy = None;
+                if self.desk_of(&root, face).is_none() {
+                    return;
+                }
+                match *found {
+                    Ok(created) => {
+                        face_edits::found(&mut self.state, face, &created.face);
+                        if let Some(desk) = &mut self.state.face {
+                            desk.remarks = created.warnings.iter().map(ToString::to_string).collect();
+                        }
+                    }
+                    Err(fault) => {
+                        if let Some(desk) = &mut self.state.face {
+                            desk.remarks = vec!["where the search fails, o places the face by hand".into()];
+                        }
+                        self.state.say_fault(&fault);
+                    }
+                }
+            }
             Report::Exporting(now) => {
                 if let Some(Overlay::Export { progress, .. }) = self.export() {
                     *progress = now;
@@ -195,10 +272,37 @@ impl Studio {
     pub fn draw(&mut self, frame: &mut Frame<'_>) {
         self.too_small = draw::has_no_room(frame.area());
         let layout = Layout::of(frame.area(), &self.state);
-        if let (Some(layout), Some(editor)) = (&layout, &self.state.editor) {
-            self.face.show(&editor.figure, &editor.pose(), layout.face, self.state.colours);
+        // What comes on the desk next may be another figure of the same name.
+        if self.state.editor.is_none() {
+            self.face = FacePicture::default();
         }
-        draw::screen(frame, &self.state, layout.as_ref(), &self.face);
+        if self.state.face.is_none() {
+            (self.cartoon, self.stage) = Default::default();
+        }
+        if let (Some(layout), Some(editor)) = (&layout, &self.state.editor) {
+            self.face.show(&editor.figure, editor.figure_version, &editor.pose(), layout.face, self.state.colours);
+        }
+        self.paint_desk(frame.area());
+        let pictures = Pictures { face: &self.face, cartoon: &self.cartoon, stage: &self.stage };
+        draw::screen(frame, &self.state, layout.as_ref(), pictures);
+    }
+
+    /// Paints what the page of a face shows, where it has changed.
+    fn paint_desk(&mut self, area: Rect) {
+        let Some(desk) = self.state.face.as_ref().filter(|_| !self.too_small) else { return };
+        let layout = FaceLayout::of(area, desk);
+        if let Some(figure) = &desk.figure {
+            self.cartoon.show(figure, desk.version, &desk.pose(), layout.cartoon, self.state.colours);
+        }
+        if let Some((_, drawing)) = desk.stage.and_then(|s| desk.stages.get(s)) {
+            self.stage.show_drawing(drawing, desk.version, layout.photo, self.state.colours);
+        }
+    }
+
+    /// The desk, where it holds that face of that lesson.
+    fn desk_of(&mut self, root: &Path, face: usize) -> Option<&mut FaceDesk> {
+        let here = self.state.lesson().is_some_and(|l| l.root == root);
+        self.state.face.as_mut().filter(|desk| here && desk.face == face)
     }
 
     fn export(&mut self) -> Option<&mut Overlay> {

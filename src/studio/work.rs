@@ -1,5 +1,6 @@
 //! Work in threads: opening a lesson, the outline of its sounds, exports. Each reports through one channel.
 
+use std::path::Path;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -9,7 +10,9 @@ use crossbeam_channel::Sender;
 use super::execute::Job;
 use super::export::Exporter;
 use super::studio::Report;
-use crate::disk::Fault;
+use crate::disk::{Fault, Result};
+use crate::face::{Anchors, Created, Face};
+use crate::photo::Photo;
 use crate::project::{Lesson, check};
 
 /// Starts a job. Whatever becomes of it, it reports its end.
@@ -33,6 +36,19 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                 let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();
                 reports.send(Report::Outlined { root, clip, sound: Box::new(sound), loudest: high.max(-low) })
             }
+            Job::Photo { root, face, path } => {
+                let read = catch_unwind(|| Photo::read(&path)).unwrap_or_else(|_| Err(broken_photo()));
+                let photo = read.map(Arc::new);
+                let shown = photo.as_ref().ok().cloned();
+                let _ = reports.send(Report::PhotoRead { root: root.clone(), face, photo: Box::new(photo) });
+                let stages = shown.and_then(|photo| catch_unwind(|| crate::plot::stages(&photo)).ok());
+                reports.send(Report::Staged { root, face, stages: stages.unwrap_or_default() })
+            }
+            Job::FindFace { root, face, path, kept, anchors } => {
+                let found = catch_unwind(|| find_face(&path, kept.as_deref(), anchors.as_ref()));
+                let found = found.unwrap_or_else(|_| Err(broken_photo()));
+                reports.send(Report::FaceFound { root, face, found: Box::new(found) })
+            }
             Job::Export { request, cancel } => {
                 let exporter = exporter.lock().unwrap_or_else(PoisonError::into_inner);
                 let progress = |now| {
@@ -44,4 +60,13 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
             }
         };
     });
+}
+
+fn find_face(path: &Path, kept: Option<&Face>, anchors: Option<&Anchors>) -> Result<Created> {
+    let (photo, sha256) = Photo::read_with_sum(path)?;
+    crate::face::create(&photo, &sha256, kept, anchors).map_err(|refusal| refusal.fault().at(path))
+}
+
+fn broken_photo() -> Fault {
+    Fault::new("the photo cannot be looked at").help("save it again as PNG and try that")
 }

@@ -2,6 +2,7 @@
 
 mod bars;
 mod curves;
+mod face;
 mod foot;
 mod keyrows;
 mod layout;
@@ -11,6 +12,7 @@ mod said;
 mod sound;
 mod timeline;
 
+pub(super) use face::FaceLayout;
 pub(super) use foot::{Foot, foot};
 pub(super) use layout::Layout;
 pub(super) use overlays::help;
@@ -32,15 +34,27 @@ pub(super) const BOLD: Style = Style::new().add_modifier(Modifier::BOLD);
 pub(super) const DIM: Style = Style::new().add_modifier(Modifier::DIM);
 pub(super) const CHOSEN: Style = Style::new().add_modifier(Modifier::REVERSED);
 
+/// What was painted for this frame.
+#[derive(Clone, Copy)]
+pub(super) struct Pictures<'a> {
+    /// The face of the clip.
+    pub face: &'a FacePicture,
+    /// The cartoon on the page of a face.
+    pub cartoon: &'a FacePicture,
+    /// The stage of the search.
+    pub stage: &'a FacePicture,
+}
+
 /// Draws everything.
-pub(super) fn screen(frame: &mut Frame<'_>, state: &State, layout: Option<&Layout>, face: &FacePicture) {
+pub(super) fn screen(frame: &mut Frame<'_>, state: &State, layout: Option<&Layout>, pictures: Pictures<'_>) {
     let area = frame.area();
     let buffer = frame.buffer_mut();
     if is_too_small(buffer, area) {
         return;
     }
     match (state.screen(), layout) {
-        (Place::Timeline, Some(layout)) => timeline::timeline(buffer, layout, state, face),
+        (Place::Timeline, Some(layout)) => timeline::timeline(buffer, layout, state, pictures.face),
+        (Place::Face, _) => face::face(buffer, area, state, pictures),
         (Place::Lesson, _) => lists::lesson(buffer, area, state),
         _ => lists::lessons(buffer, area, state),
     }

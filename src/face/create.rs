@@ -1,0 +1,99 @@
+//! From a photo to a face: points found or placed, everything else measured at them, and what may be wrong said in
+//! plain words.
+
+use std::fmt;
+
+use super::find::{Anchors, Found, Refusal, find, find_from};
+use super::measure::{Measured, measure};
+use super::{Face, FeaturePoint, How, PhotoRecord, Units};
+use crate::photo::Photo;
+
+/// A face and what there is to say of it.
+#[derive(Debug, Clone)]
+pub struct Created {
+    /// The face.
+    pub face: Face,
+    /// What breaks the method's assumptions (thesis sec. 1.3.2), and what to do.
+    pub warnings: Vec<Warning>,
+}
+
+/// Something about a photo that makes its face less sure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    /// What is seen.
+    pub what: String,
+    /// What to do.
+    pub help: &'static str,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.what, self.help)
+    }
+}
+
+/// Makes the face of a photo whose file has the SHA-256 `sha256`. What a hand has set in `kept` stays, its kind of hair
+/// too. Four `anchors` given by hand take the place of looking for a face.
+///
+/// # Errors
+/// When no face can be drawn from it; says why, and what to do.
+pub fn create(
+    photo: &Photo,
+    sha256: &str,
+    kept: Option<&Face>,
+    anchors: Option<&Anchors>,
+) -> Result<Created, Refusal> {
+    let hands: Vec<_> = kept.map(by_hand).unwrap_or_default();
+    let found = match anchors {
+        Some(anchors) => find_from(photo, anchors, &hands)?,
+        None => find(photo, &hands)?,
+    };
+    let points = super::Points(found.points.map(|p| p.at));
+    let measured = measure(photo, &points);
+    let warnings = warnings(photo, &found, &measured);
+    let mut face = Face {
+        points: found.points,
+        colours: measured.colours,
+        measures: measured.measures,
+        hair: measured.hair,
+        photo: PhotoRecord {
+            sha256: sha256.to_owned(),
+            size: [photo.width() as u32, photo.height() as u32],
+        },
+    };
+    trust_ears_as_far_as_seen(&mut face);
+    if let Some(kept) = kept {
+        face.hair.kind = kept.hair.kind;
+        if let (Some(points), Some(old)) = (&mut face.hair.points, &kept.hair.points) {
+            for (point, old) in points.iter_mut().zip(old).filter(|(_, old)| old.how == How::Hand) {
+                *point = *old;
+            }
+        }
+    }
+    Ok(Created { face, warnings })
+}
+
+/// The points that every face has and a hand has set.
+fn by_hand(face: &Face) -> Vec<(FeaturePoint, crate::geometry::Point)> {
+    FeaturePoint::fixed()
+        .filter_map(|p| face.placed(p).filter(|placed| placed.how == How::Hand).map(|placed| (p, placed.at)))
+        .collect()
+}
+
+/// An ear under hair is where ears usually are: placed by rule.
+fn trust_ears_as_far_as_seen(face: &mut Face) {
+    use FeaturePoint as P;
+    for (points, seen) in
+        [[P::P10_2, P::P10_4, P::P10_6], [P::P10_1, P::P10_3, P::P10_5]].into_iter().zip(face.measures.ears)
+    {
+        for point in points {
+            let placed = &mut face.points[point.index()];
+            if placed.how == How::Found {
+                placed.confidence *= seen.clamp(0.0, 1.0);
+                if seen < 0.45 {
+                    placed.how = How::Rule;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! An author's own layer: an SVG file of hers as areas of a drawing. What is not a filled or stroked shape (scripts,
+//! links, pictures, fonts, filters) has no counterpart in a drawing and is left out, which is what makes it clean.
+
+use usvg::{Node, Paint, Transform, tiny_skia_path as skia};
+
+use crate::disk::{Fault, Result};
+use crate::drawing::{Colour, Group, Item, fit};
+use crate::geometry::{Affine, BezPath, Point, Rect, Shape};
+
+/// The longest text of a layer that is read; drawings by hand are far below.
+pub const MAX_LAYER_BYTES: u64 = 8 << 20;
+/// The most shapes of a layer: each one costs time in every frame.
+const MAX_SHAPES: usize = 5_000;
+/// How far the outline of a stroke may lie from the true one, in units of the layer.
+const TOLERANCE: f64 = 0.05;
+
+/// An author's own layer, in its own coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AuthorLayer {
+    /// Where it is drawn.
+    pub place: LayerPlace,
+    /// The part of its plane that covers the figure's view.
+    pub view: Rect,
+    /// Back to front.
+    pub items: Vec<Item>,
+    /// What was left out, in words for its author.
+    pub left_out: Vec<&'static str>,
+}
+
+/// Where an author's layer is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LayerPlace {
+    /// Behind everything but the ground.
+    Behind,
+    /// On the body and behind the head: clothing.
+    #[default]
+    Body,
+    /// On the head, moving with it: a hat, glasses, a flower.
+    Head,
+    /// Before everything: a frame, a board.
+    Before,
+}
+
+impl AuthorLayer {
+    /// Reads the text of an SVG file. Shapes become filled areas, strokes their outlines, gradients the middle of
+    /// their colours.
+    ///
+    /// # Errors
+    /// When it is not SVG, or has more shapes than a frame can bear.
+    pub fn parse(text: &str, place: LayerPlace) -> Result<Self> {
+        let mut options = usvg::Options::default();
+        // Pictures are not looked at: neither files nor data inside the text.
+        options.image_href_resolver =
+            usvg::ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
+        let tree = usvg::Tree::from_str(text, &options)
+            .map_err(|e| Fault::new(format!("this is not an SVG drawing: {e}")).help("save it as plain SVG"))?;
+        let mut reader = Reader::default();
+        let items = reader.group(tree.root());
+        if reader.shapes > MAX_SHAPES {
+            return Err(Fault::new(format!("the layer has more than {MAX_SHAPES} shapes"))
+                .help("simplify the drawing: every shape is drawn in every frame"));
+        }
+        let mut left_out = reader.left_out;
+        let mut miss = |found: bool, what: &'static str| {
+            if found {
+                left_out.push(what);
+            }
+        };
+        miss(text.contains("<text"), "text: turn it into paths");
+        miss(text.contains("<image"), "pictures");
+        miss(text.contains("<script") || text.contains("onload="), "scripts");
+        left_out.sort_unstable();
+        left_out.dedup();
+        let size = tree.size();
+        let view = Rect::new(0.0, 0.0, f64::from(size.width()), f64::from(size.height()));
+        Ok(Self { place, view, items, left_out })
+    }
+
+    /// The layer as one thing of a figure that fills `view`.
+    #[must_use]
+    pub fn over(&self, view: Rect) -> Item {
+        Item::Group(Group {
+            name: String::new(),
+            transform: fit(self.view, view),
+            clip: Some(self.view.to_path(0.1)),
+            items: self.items.clone(),
+        })
+    }
+}
+
+#[derive(Default)]
+struct Reader {
+    shapes: usize,
+    left_out: Vec<&'static str>,
+}
+
+impl Reader {
+    fn group(&mut self, group: &usvg::Group) -> Vec<Item> {
+        let mut items = Vec::new();
+        for node in group.children() {
+            if self.shapes > MAX_SHAPES {
+                break;
+            }
+            match node {
+                Node::Group(inner) => items.extend(self.inner_group(inner)),
+                Node::Path(path) if path.is_visible() => self.path(path, &mut items),
+                Node::Path(_) => {}
+                Node::Image(_) => self.left_out.push("pictures"),
+                Node::Text(_) => self.left_out.push("text: turn it into paths"),
+            }
+        }
+        items
+    }
+
+    fn inner_group(&mut self, group: &usvg::Group) -> Option<Item> {
+        if !group.filters().is_empty() {
+            self.left_out.push("filters");
+        }
+        if group.mask().is_some() {
+            self.left_out.push("masks");
+        }
+        let clip = group.clip_path().and_then(|clip| {
+            let mut outline = BezPath::new();
+            outline_of(clip.root(), affine(clip.transform()), &mut outline);
+            (!outline.elements().is_empty()).then_some(outline)
+        });
+        let mut items = self.group(group);
+        let opacity = f64::from(group.opacity().get());
+        if opacity < 0.999 {
+            items.iter_mut().for_each(|item| fade(item, opacity));
+        }
+        (!items.is_empty())
+            .then(|| Item::Group(Group { name: String::new(), transform: affine(group.transform()), clip, items }))
+    }
+
+    fn path(&mut self, path: &usvg::Path, items: &mut Vec<Item>) {
+        self.shapes += 1;
+        let outline = bez_path(path.data());
+        let mut fill = || {
+            let fill = path.fill()?;
+            let colour = self.paint(fill.paint(), fill.opacity().get())?;
+            Some(Item::area("", outline.clone(), colour))
+        };
+        let filled = fill();
+        let mut draw_stroke = || {
+            let stroke = path.stroke()?;
+            let colour = self.paint(stroke.paint(), stroke.opacity().get())?;
+            Some(Item::area("", stroked(&outline, stroke), colour))
+        };
+        let drawn = draw_stroke();
+        match path.paint_order() {
+            usvg::PaintOrder::FillAndStroke => items.extend(filled.into_iter().chain(drawn)),
+            usvg::PaintOrder::StrokeAndFill => items.extend(drawn.into_iter().chain(filled)),
+        }
+    }
+
+    /// A paint as one colour: of a gradient the mean of its stops.
+    fn paint(&mut self, paint: &Paint, opacity: f32) -> Option<Colour> {
+        let of_stops = |stops: &[usvg::Stop]| {
+            let n = stops.len().max(1) as f32;
+            let mean = |f: &dyn Fn(&usvg::Stop) -> f32| stops.iter().map(f).sum::<f32>() / n;
+            let channel = |f: &dyn Fn(&usvg::Stop) -> u8| mean(&|s| f32::from(f(s))).round() as u8;
+            Colour::rgb(channel(&|s| s.color().red), channel(&|s| s.color().green), channel(&|s| s.color().blue))
+                .faded(f64::from(mean(&|s| s.opacity().get())))
+        };
+        let colour = match paint {
+            Paint::Color(c) => Colour::rgb(c.red, c.green, c.blue),
+            Paint::LinearGradient(gradient) => {
+                self.left_out.push("gradients: drawn in their middle colour");
+                of_stops(gradient.stops())
+            }
+            Paint::RadialGradient(gradient) => {
+                self.left_out.push("gradients: drawn in their middle colour");
+                of_stops(gradient.stops())
+            }
+            Paint::Pattern(_) => {
+                self.left_out.push("patterns");
+                return None;
+            }
+        };
+        Some(colour.faded(f64::from(opacity)))
+    }
+}
+
+/// Everything inside a clip path, as one outline.
+fn outline_of(group: &usvg::Group, moved: Affine, out: &mut BezPath) {
+    for node in group.children() {
+        match node {
+            Node::Group(inner) => outline_of(inner, moved * affine(inner.transform()), out),
+            Node::Path(path) => out.extend((moved * bez_path(path.data())).elements().iter().copied()),
+            Node::Image(_) | Node::Text(_) => {}
+        }
+    }
+}
+
+fn fade(item: &mut Item, opacity: f64) {
+    match item {
+        Item::Area(area) => area.colour = area.colour.faded(opacity),
+        Item::Group(group) => group.items.iter_mut().for_each(|item| fade(item, opacity)),
+        _ => {}
+    }
+}
+
+fn stroked(path: &BezPath, stroke: &usvg::Stroke) -> BezPath {
+    let cap = match stroke.linecap() {
+        usvg::LineCap::Butt => kurbo::Cap::Butt,
+        usvg::LineCap::Round => kurbo::Cap::Round,
+        usvg::LineCap::Square => kurbo::Cap::Square,
+    };
+    let join = match stroke.linejoin() {
+        usvg::LineJoin::Round => kurbo::Join::Round,
+        usvg::LineJoin::Bevel => kurbo::Join::Bevel,
+        _ => kurbo::Join::Miter,
+    };
+    let mut style = kurbo::Stroke::new(f64::from(stroke.width().get())).with_caps(cap).with_join(join);
+    style.miter_limit = f64::from(stroke.miterlimit().get());
+    if let Some(dashes) = stroke.dasharray() {
+        style = style.with_dashes(f64::from(stroke.dashoffset()), dashes.iter().map(|d| f64::from(*d)));
+    }
+    kurbo::stroke(path.iter(), &style, &kurbo::StrokeOpts::default(), TOLERANCE)
+}
+
+fn affine(t: Transform) -> Affine {
+    Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from))
+}
+
+fn bez_path(path: &skia::Path) -> BezPath {
+    let point = |p: skia::Point| Point::new(f64::from(p.x), f64::from(p.y));
+    let mut out = BezPath::new();
+    for segment in path.segments() {
+        match segment {
+            skia::PathSegment::MoveTo(p) => out.move_to(point(p)),
+            skia::PathSegment::LineTo(p) => out.line_to(point(p)),
+            skia::PathSegment::QuadTo(a, p) => out.quad_to(point(a), point(p)),
+            skia::PathSegment::CubicTo(a, b, p) => out.curve_to(point(a), point(b), point(p)),
+            skia::PathSegment::Close => out.close_path(),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_come_in_and_scripts_links_and_pictures_stay_out() {
+        let text = r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="100" height="200" onload="alert(1)">
+            <script>alert(2)</script><image xlink:href="file:///etc/passwd" width="5" height="5"/>
+            <a xlink:href="https://example.org"><rect x="10" y="20" width="30" height="40" fill="#ff0000" fill-opacity=".5"/></a>
+            <path d="M0 0L50 0" stroke="#00f" stroke-width="4" fill="none"/></svg>"##;
+        let layer = AuthorLayer::parse(text, LayerPlace::Body).unwrap();
+        assert_eq!(layer.view.size(), crate::geometry::Rect::new(0.0, 0.0, 100.0, 200.0).size());
+        assert!(layer.left_out.contains(&"pictures") && layer.left_out.contains(&"scripts"), "{:?}", layer.left_out);
+        let drawing = crate::drawing::Drawing {
+            view: layer.view,
+            title: String::new(),
+            description: String::new(),
+            background: None,
+            layers: vec![crate::drawing::Layer { name: "own".into(), items: vec![layer.over(layer.view)] }],
+        };
+        let shown = format!("{drawing:?}");
+        assert_eq!(shown.matches("Area(").count(), 2);
+        assert!(!shown.contains("passwd") && !shown.contains("alert"));
+    }
+
+    #[test]
+    fn what_is_no_svg_is_refused_with_what_to_do() {
+        let fault = AuthorLayer::parse("<html></html>", LayerPlace::Head).unwrap_err();
+        assert!(fault.next_step().contains("plain SVG"), "{fault}");
+    }
+}

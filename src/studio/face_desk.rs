@@ -1,0 +1,176 @@
+//! A face on the desk: its photo, the point that is chosen, and how the cartoon beside it is tried out.
+
+use std::sync::Arc;
+
+use crate::drawing::Drawing;
+use crate::face::{Face, FeaturePoint, Placed};
+use crate::figure::Figure;
+use crate::geometry::{Point, Rect, Vec2};
+use crate::photo::Photo;
+use crate::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
+
+/// How much nearer one step of the zoom brings the photo.
+const ZOOM_STEP: f64 = 1.6;
+/// The nearest that the photo can be looked at.
+const MAX_ZOOM: i32 = 6;
+
+/// A face on the desk.
+#[derive(Debug)]
+pub struct FaceDesk {
+    /// Number of the face.
+    pub face: usize,
+    /// Its photo; none while it is read, and where there is none.
+    pub photo: Option<Arc<Photo>>,
+    /// The point that keys move.
+    pub point: FeaturePoint,
+    /// Whether the point at the other side moves too.
+    pub both: bool,
+    /// Steps nearer than the whole face.
+    pub zoom: i32,
+    /// The thesis's stages of the photo, each with its caption; empty until they are there.
+    pub stages: Vec<(String, Drawing)>,
+    /// Which of them is shown in place of the photo; none shows the photo.
+    pub stage: Option<usize>,
+    /// The emotion that the cartoon shows.
+    pub emotion: Emotion,
+    /// The mouth shape that the cartoon shows; none is the emotion's own mouth.
+    pub mouth: Option<MouthShape>,
+    /// Which nine mouth shapes the face has.
+    pub mouths: MouthPreset,
+    /// What the face looks like drawn; none without points.
+    pub figure: Option<Figure>,
+    /// Counts how often the figure or the photo has changed, so that pictures of them know.
+    pub version: u64,
+    /// Places given by hand where nothing was found: left eye, right eye, mouth, chin so far, and the cross.
+    pub placing: Option<Placing>,
+    /// What the search had to say.
+    pub remarks: Vec<String>,
+}
+
+/// Four places that an author gives so that the rest can be placed from them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placing {
+    /// Those given.
+    pub given: Vec<Point>,
+    /// Where the cross is, in pixels of the photo.
+    pub cross: Point,
+}
+
+impl Placing {
+    /// What is to be given, in order.
+    pub const WANTED: [&'static str; 4] =
+        ["the middle of the left eye", "the middle of the right eye", "the middle of the mouth", "the tip of the chin"];
+
+    /// What is to be given next.
+    #[must_use]
+    pub fn wanted(&self) -> &'static str {
+        Self::WANTED[self.given.len().min(3)]
+    }
+}
+
+impl FaceDesk {
+    /// The desk of a face, as it is first seen.
+    #[must_use]
+    pub fn new(face: usize, mouths: MouthPreset, figure: Option<Figure>) -> Self {
+        Self {
+            face,
+            photo: None,
+            point: FeaturePoint::P3_6,
+            both: false,
+            zoom: 0,
+            stages: Vec::new(),
+            stage: None,
+            emotion: Emotion::Neutral,
+            mouth: None,
+            mouths,
+            figure,
+            version: 0,
+            placing: None,
+            remarks: Vec::new(),
+        }
+    }
+
+    /// What the cartoon is to do.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        let mut pose = Pose::of(Ratios::pure(self.emotion));
+        if let Some(shape) = self.mouth {
+            pose.mouth = MouthPose::of(shape, self.mouths);
+        }
+        pose
+    }
+
+    /// Nearer or farther.
+    pub fn zoom_by(&mut self, by: i32) {
+        self.zoom = (self.zoom + by).clamp(0, MAX_ZOOM);
+    }
+
+    /// The part of the photo to show, in its pixels: the face with its hair, or nearer round the chosen point or the
+    /// cross.
+    #[must_use]
+    pub fn view(&self, face: Option<&Face>, size: Vec2) -> Rect {
+        let whole = Rect::new(-0.5, -0.5, size.x - 0.5, size.y - 0.5);
+        let around = face.map_or(whole, |face| {
+            let points = FeaturePoint::all().filter_map(|p| face.placed(p)).map(|p| p.at);
+            let first = Rect::from_points(face.points[0].at, face.points[0].at);
+            let bounds = points.fold(first, |r, p| r.union_pt(p));
+            let margin = 0.12 * bounds.width().max(bounds.height()).max(8.0);
+            let shown = bounds.inflate(margin, margin).intersect(whole);
+            if shown.width() > 4.0 && shown.height() > 4.0 { shown } else { whole }
+        });
+        let around = if self.placing.is_some() { whole } else { around };
+        if self.zoom == 0 {
+            return around;
+        }
+        let scale = ZOOM_STEP.powi(-self.zoom);
+        let middle = match (&self.placing, face.and_then(|f| f.placed(self.point))) {
+            (Some(placing), _) => placing.cross,
+            (None, Some(placed)) => placed.at,
+            (None, None) => around.center(),
+        };
+        Rect::from_center_size(middle, around.size() * scale)
+    }
+
+    /// Chooses the next or previous point that the face has.
+    pub fn choose(&mut self, by: i32, face: &Face) {
+        let there: Vec<FeaturePoint> = FeaturePoint::all().filter(|p| face.placed(*p).is_some()).collect();
+        let here = there.iter().position(|p| *p == self.point).unwrap_or(0) as i32;
+        self.point = there[(here + by).rem_euclid(there.len() as i32) as usize];
+    }
+}
+
+/// A step of a point at one side as its mirror image takes it: mirrored at the line midway between the pupils.
+#[must_use]
+pub fn mirrored(step: Vec2, face: &Face) -> Vec2 {
+    let across = face.points[FeaturePoint::P3_5.index()].at - face.points[FeaturePoint::P3_6.index()].at;
+    let length = across.hypot();
+    if length < 1e-6 {
+        return Vec2::new(-step.x, step.y);
+    }
+    let across = across / length;
+    step - across * (2.0 * step.dot(across))
+}
+
+/// How a point came to be, in words.
+#[must_use]
+pub fn told(placed: &Placed) -> String {
+    use crate::face::How;
+    match placed.how {
+        How::Hand => "set by hand".into(),
+        How::Rule => "placed by rule".into(),
+        How::Found => format!("found, {:.0} % sure", placed.confidence * 100.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_outwards_is_a_step_outwards_at_the_other_side() {
+        let text = include_str!("../../tests/faces/average.toml");
+        let face = Face::parse(text).expect("a face");
+        let step = mirrored(Vec2::new(-1.0, 2.0), &face);
+        assert!((step.x - 1.0).abs() < 0.05 && (step.y - 2.0).abs() < 0.05, "{step:?}");
+    }
+}
