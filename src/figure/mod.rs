@@ -3,6 +3,7 @@
 //!
 //! A figure owns no time: it draws the pose it is given and remembers nothing.
 
+pub mod cartoon;
 pub mod line;
 
 pub use line::LineFigure;

@@ -1,0 +1,5 @@
+//! The cartoon: a personal face drawn from its 72 points, measured colours and hair (thesis ch. 4), in a style.
+
+mod palette;
+
+pub use palette::{Chosen, Palette};
