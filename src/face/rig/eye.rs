@@ -6,6 +6,8 @@ use crate::face::{FeaturePoint as P, Points};
 use crate::geometry::{CubicBez, ParamCurve, Point, Vec2, lerp};
 use crate::pose::Gaze;
 
+/// Radius of the iris in ES0.
+const IRIS: f64 = 0.117;
 /// Where closed lids meet, between the lower (0) and the upper lid (1): people close from above.
 const CLOSED_AT: f64 = 0.18;
 /// How far below that the lids' ink takes the line, in face units.
@@ -49,7 +51,6 @@ pub struct Eye {
     /// Height of the eye at rest.
     pub height: f64,
     names: [P; 5],
-    centre: Point,
 }
 
 impl Socket {
@@ -64,7 +65,7 @@ impl Socket {
             upper: upper.y,
             lower: lower.y,
             centre,
-            radius: proportions.iris * ES0,
+            radius: IRIS * proportions.iris * ES0,
             crease: proportions.crease * height,
             side,
         }
@@ -107,7 +108,6 @@ impl Socket {
             crease: self.crease * (1.0 - 0.55 * closed) * (0.75 + 0.25 * e.lid_upper),
             height,
             names: self.names,
-            centre: self.centre,
         }
     }
 }
@@ -170,6 +170,12 @@ impl Eye {
     #[must_use]
     pub fn opening(&self) -> f64 {
         self.lower.eval(0.5).y - self.upper.eval(0.5).y
+    }
+
+    /// Height of the upper lid at `x`, or of the corner beyond which `x` lies.
+    pub(super) fn lid_over(&self, x: f64) -> f64 {
+        let (from, to) = (self.inner().x, self.outer().x);
+        self.upper.eval(within((x - from) / (to - from), 0.0, 1.0)).y
     }
 
     /// Puts the points of the eye where the pose has them; 3.6 and 3.5, the eyeball's middle, go with the gaze.

@@ -3,7 +3,7 @@
 use super::deformed::Deformed;
 use super::eye::Socket;
 use super::mouth::Lips;
-use super::{Expression, Proportions, within};
+use super::{Expression, Eye, Proportions, within};
 use crate::face::{FeaturePoint as P, Part, Points, Units};
 use crate::geometry::{Affine, Point, Vec2, lerp};
 use crate::pose::{Head, Pose};
@@ -12,14 +12,13 @@ use crate::pose::{Head, Pose};
 pub(super) const ES0: f64 = 100.0;
 
 /// Brows of the left and the right side, from the inner to the outer end.
-pub(super) const BROWS: [[P; 4]; 2] =
-    [[P::P4_2, P::P4_4, P::P4_4A, P::P4_6], [P::P4_1, P::P4_3, P::P4_3A, P::P4_5]];
+pub(super) const BROWS: [[P; 4]; 2] = [[P::P4_2, P::P4_4, P::P4_4A, P::P4_6], [P::P4_1, P::P4_3, P::P4_3A, P::P4_5]];
 
 const NOSE: [P; 9] = [P::P9_6, P::P9_7, P::P9_14, P::P9_13, P::P9_2, P::P9_1, P::P9_4, P::P9_5, P::P9_15];
 pub(super) const MOUTH: [P; 8] = [P::P8_4, P::P8_3, P::P8_9, P::P8_10, P::P8_1, P::P2_2, P::P2_3, P::P8_2];
 
 /// A brow's middle line stays at least this far above the upper lid, in face units: half a brow and a strip of skin.
-const BROW_OVER_LID: f64 = 10.5;
+const BROW_OVER_LID: f64 = 9.0;
 
 /// A person's face at rest, as a drawing starts from it.
 ///
@@ -37,7 +36,6 @@ pub struct Neutral {
     units: Units,
     lips: Lips,
     sockets: [Socket; 2],
-    upper_lip_reach: f64,
 }
 
 impl Neutral {
@@ -59,7 +57,7 @@ impl Neutral {
             Socket::of(&points, [P::P3_8, P::P3_12, P::P3_2, P::P3_4, P::P3_6], -1.0, proportions),
             Socket::of(&points, [P::P3_11, P::P3_7, P::P3_1, P::P3_3, P::P3_5], 1.0, proportions),
         ];
-        Self { points, units, lips, sockets, upper_lip_reach: 0.0 }
+        Self { points, units, lips, sockets }
     }
 
     /// The points at rest, as drawn.
@@ -89,7 +87,7 @@ impl Neutral {
         for eye in &eyes {
             eye.place(&mut points);
         }
-        self.move_brows(&mut points, &expression);
+        self.move_brows(&mut points, &expression, &eyes);
         let brows = BROWS.map(|side| side.map(|p| points[p]));
         Deformed { points, mouth, eyes, brows, expression, chin_drop, head: self.head(&pose.head) }
     }
@@ -114,21 +112,20 @@ impl Neutral {
     }
 
     /// Brows by the emotions: the inner end by its own numbers, its neighbour between them and the middle's.
-    fn move_brows(&self, points: &mut Points, e: &Expression) {
-        for (side, toward_middle) in BROWS.iter().zip([1.0, -1.0]) {
+    fn move_brows(&self, points: &mut Points, e: &Expression, eyes: &[Eye; 2]) {
+        for ((side, eye), toward_middle) in BROWS.iter().zip(eyes).zip([1.0, -1.0]) {
             let moves = [
                 Vec2::new(e.brow_in * toward_middle, e.brow_inner),
                 Vec2::new(0.5 * e.brow_in * toward_middle, 0.45 * e.brow_inner + 0.55 * e.brow_middle),
                 Vec2::new(0.0, e.brow_middle),
                 Vec2::new(0.0, e.brow_outer),
             ];
-            let lid = points[if toward_middle > 0.0 { P::P3_2 } else { P::P3_1 }].y.min(self.lid(toward_middle));
             for ((i, p), by) in side.iter().enumerate().zip(moves) {
                 let rest = self.points[*p];
                 let mut to = rest + by * ES0;
-                // The outer end may hang beside the eye; over it a brow stops at the lid, as far down as it rests.
+                // The outer end may hang beside the eye; over it a brow stops short of the lid, or where it rests.
                 if i < 3 && to.y > rest.y {
-                    to.y = to.y.min((lid - BROW_OVER_LID).max(rest.y));
+                    to.y = to.y.min((eye.lid_over(to.x) - BROW_OVER_LID).max(rest.y));
                 }
                 points[*p] = to;
             }
@@ -139,11 +136,6 @@ impl Neutral {
             let x = points[inner].x - middle;
             points[inner].x = middle + if toward_middle > 0.0 { x.min(-room) } else { x.max(room) };
         }
-    }
-
-    /// The neutral upper lid of a side.
-    fn lid(&self, toward_middle: f64) -> f64 {
-        self.points[if toward_middle > 0.0 { P::P3_2 } else { P::P3_1 }].y
     }
 
     /// The head rolled about the neck under the chin, and moved in pupil distances.
@@ -173,7 +165,9 @@ fn symmetrise(points: &mut Points, proportions: &Proportions) {
 
 /// Moves what no face can have. The bounds, in face units, are wider than any of 72 measured faces has needed.
 fn make_sound(points: &mut Points) {
-    for (eye, side) in [([P::P3_8, P::P3_12, P::P3_2, P::P3_4, P::P3_6], -1.0), ([P::P3_11, P::P3_7, P::P3_1, P::P3_3, P::P3_5], 1.0)] {
+    for (eye, side) in
+        [([P::P3_8, P::P3_12, P::P3_2, P::P3_4, P::P3_6], -1.0), ([P::P3_11, P::P3_7, P::P3_1, P::P3_3, P::P3_5], 1.0)]
+    {
         let [inner, outer, upper, lower, middle] = eye;
         // In the face frame the eyes are where they are; anything else is a slip of whoever moved the points there.
         points[middle].x = side * within(side * points[middle].x, 0.35 * ES0, 0.65 * ES0);
@@ -215,6 +209,8 @@ fn make_sound(points: &mut Points) {
 fn proportion(points: &mut Points, by: &Proportions) {
     /// Corners of the eye are drawn out less in height than in width.
     const CORNER_HEIGHT: f64 = 1.08;
+    /// The least height of an eye in ES0 before it is enlarged: narrower ones could not be seen to look or to close.
+    const LEAST_EYE: f64 = 0.147;
     for [inner, outer, upper, lower, middle] in
         [[P::P3_8, P::P3_12, P::P3_2, P::P3_4, P::P3_6], [P::P3_11, P::P3_7, P::P3_1, P::P3_3, P::P3_5]]
     {
@@ -226,7 +222,7 @@ fn proportion(points: &mut Points, by: &Proportions) {
         for lid in [upper, lower] {
             points[lid].y = c.y + (points[lid].y - c.y) * by.eye_height;
         }
-        let missing = by.least_eye * ES0 - (points[lower].y - points[upper].y);
+        let missing = LEAST_EYE * by.eye_height * ES0 - (points[lower].y - points[upper].y);
         if missing > 0.0 {
             points[upper].y -= 0.6 * missing;
             points[lower].y += 0.4 * missing;
@@ -240,10 +236,10 @@ fn proportion(points: &mut Points, by: &Proportions) {
     let middle = points[P::P8_4].midpoint(points[P::P8_3]);
     for p in MOUTH {
         let v = points[p] - middle;
-        points[p] = middle + Vec2::new(v.x * by.mouth_width, v.y * by.mouth_height - by.mouth_up * eye_nose);
+        points[p] = middle + Vec2::new(v.x * by.mouth_wide, v.y * by.mouth_high - by.mouth_up * eye_nose);
     }
     for p in BROWS.into_iter().flatten() {
-        points[p].y -= by.brows_up * ES0;
+        points[p].y -= by.brow_up * ES0;
     }
     points[P::P2_1].y = (points[P::P2_1].y - by.chin_up * ES0).max(points[P::P8_2].y + 12.0);
     for p in [P::P2_14, P::P2_13] {

@@ -16,9 +16,7 @@ pub struct Proportions {
     pub eye_width: f64,
     /// Height of the lids over the eyeball's middle.
     pub eye_height: f64,
-    /// The least height of an eye, in ES0.
-    pub least_eye: f64,
-    /// Radius of the iris, in ES0.
+    /// Size of the iris; 1 is a radius of 0.117 ES0.
     pub iris: f64,
     /// Height of the crease over the upper lid, in heights of the eye.
     pub crease: f64,
@@ -27,13 +25,13 @@ pub struct Proportions {
     /// The nose up, in ENS0.
     pub nose_up: f64,
     /// Width of the mouth, about its middle.
-    pub mouth_width: f64,
+    pub mouth_wide: f64,
     /// Height of the mouth, about its middle.
-    pub mouth_height: f64,
+    pub mouth_high: f64,
     /// The mouth up, in ENS0.
     pub mouth_up: f64,
     /// The brows up, in ES0.
-    pub brows_up: f64,
+    pub brow_up: f64,
     /// The chin up, in ES0.
     pub chin_up: f64,
     /// The jaw up, in ES0.
@@ -47,15 +45,14 @@ impl Proportions {
         ear_symmetry: 0.9,
         eye_width: 1.16,
         eye_height: 1.26,
-        least_eye: 0.185,
-        iris: 0.117,
+        iris: 1.0,
         crease: 0.30,
         nose: 1.0,
         nose_up: 0.0,
-        mouth_width: 1.0,
-        mouth_height: 1.0,
+        mouth_wide: 1.0,
+        mouth_high: 1.0,
         mouth_up: 0.0,
-        brows_up: 0.0,
+        brow_up: 0.0,
         chin_up: 0.0,
         jaw_up: 0.0,
     };
@@ -64,15 +61,14 @@ impl Proportions {
     pub const CUTE: Self = Self {
         eye_width: 1.42,
         eye_height: 1.75,
-        least_eye: 0.252,
-        iris: 0.1615,
+        iris: 1.38,
         crease: 0.22,
         nose: 0.72,
         nose_up: 0.10,
-        mouth_width: 0.82,
-        mouth_height: 0.85,
+        mouth_wide: 0.82,
+        mouth_high: 0.85,
         mouth_up: 0.12,
-        brows_up: 0.07,
+        brow_up: 0.07,
         chin_up: 0.12,
         jaw_up: 0.10,
         ..Self::NORMAL
