@@ -20,6 +20,13 @@ impl Drawing {
     }
 }
 
+/// The same of items alone.
+pub(super) fn of_items(items: &[Item]) -> u64 {
+    let mut sum = Sum(0xCBF2_9CE4_8422_2325);
+    items.iter().for_each(|item| sum.item(item));
+    sum.0
+}
+
 /// FNV-1a over words instead of bytes, with a rotation so that the high bits of numbers reach the low ones.
 struct Sum(u64);
 
@@ -85,6 +92,16 @@ impl Sum {
                 self.number(text.size);
                 self.colour(text.colour);
                 self.text(&text.text);
+            }
+            Item::Glow(glow) => {
+                self.word(15);
+                self.point(glow.at);
+                self.point(glow.radii.to_point());
+                self.colour(glow.colour);
+            }
+            Item::Shared(shared) => {
+                self.word(16);
+                self.word(shared.fingerprint());
             }
             Item::Group(group) => {
                 self.word(14);

@@ -5,11 +5,13 @@
 mod colour;
 mod fingerprint;
 mod oklab;
+mod shared;
 
 pub use colour::Colour;
 pub use oklab::{Oklab, Oklch};
+pub use shared::Shared;
 
-use crate::geometry::{Affine, BezPath, Point, Rect, Ribbon};
+use crate::geometry::{Affine, BezPath, Point, Rect, Ribbon, Vec2};
 
 /// A whole picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +47,12 @@ pub enum Item {
     Ink(Ink),
     /// A line of text.
     Text(Text),
+    /// A spot of colour without an edge.
+    Glow(Glow),
     /// Several things moved or clipped together.
     Group(Group),
+    /// Things that many drawings have in common.
+    Shared(Shared),
 }
 
 /// A filled area, non-zero winding.
@@ -97,6 +103,19 @@ pub enum Anchor {
     End,
 }
 
+/// A spot of colour without an edge: an ellipse whose colour fades from its middle out to nothing at its rim, evenly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Glow {
+    /// What it is; may be empty.
+    pub name: String,
+    /// Its middle.
+    pub at: Point,
+    /// How far it reaches to the side and down.
+    pub radii: Vec2,
+    /// Its colour in the middle.
+    pub colour: Colour,
+}
+
 /// Several things moved or clipped together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
@@ -129,6 +148,18 @@ impl Item {
         Self::Text(Text { at, size, anchor, colour, text: text.into() })
     }
 
+    /// A spot of colour that fades to nothing at its rim.
+    #[must_use]
+    pub fn glow(name: impl Into<String>, at: Point, radii: Vec2, colour: Colour) -> Self {
+        Self::Glow(Glow { name: name.into(), at, radii, colour })
+    }
+
+    /// Things that many drawings have in common: cloning and comparing them costs next to nothing.
+    #[must_use]
+    pub fn shared(items: Vec<Self>) -> Self {
+        Self::Shared(Shared::new(items))
+    }
+
     /// Things seen only through `clip`.
     #[must_use]
     pub fn clipped(name: impl Into<String>, clip: BezPath, items: Vec<Self>) -> Self {
@@ -150,7 +181,12 @@ impl Drawing {
             match item {
                 Item::Text(text) => text.text = say(&text.text),
                 Item::Group(group) => group.items.iter_mut().for_each(|item| change(item, say)),
-                Item::Area(_) | Item::Ink(_) => {}
+                Item::Shared(shared) => {
+                    let mut items = shared.items().to_vec();
+                    items.iter_mut().for_each(|item| change(item, say));
+                    *shared = Shared::new(items);
+                }
+                Item::Area(_) | Item::Ink(_) | Item::Glow(_) => {}
             }
         }
         self.layers.iter_mut().flat_map(|l| &mut l.items).for_each(|item| change(item, say));

@@ -4,6 +4,7 @@
 //! A figure owns no time: it draws the pose it is given and remembers nothing.
 
 mod author_layer;
+pub mod cartoon;
 pub mod line;
 
 pub use author_layer::{AuthorLayer, LayerPlace, MAX_LAYER_BYTES};

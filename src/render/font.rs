@@ -85,7 +85,8 @@ pub fn uncovered_in(drawing: &Drawing) -> Option<char> {
         match item {
             Item::Text(text) => uncovered(&text.text),
             Item::Group(group) => group.items.iter().find_map(of),
-            Item::Area(_) | Item::Ink(_) => None,
+            Item::Shared(shared) => shared.items().iter().find_map(of),
+            Item::Area(_) | Item::Ink(_) | Item::Glow(_) => None,
         }
     }
     drawing.layers.iter().flat_map(|l| &l.items).find_map(of)

@@ -1,11 +1,11 @@
 //! A drawing as pixels, by tiny-skia. Layers named `static` are painted once and copied while they stay the same.
 
-use tiny_skia::{FillRule, Mask, Paint, PathBuilder, Pixmap, Transform};
+use tiny_skia::{FillRule, GradientStop, Mask, Paint, PathBuilder, Pixmap, RadialGradient, SpreadMode, Transform};
 
 use super::{FontFile, MAX_SIDE, TOLERANCE, text_outline, text_width};
 use crate::disk::{Fault, Result};
-use crate::drawing::{Anchor, Colour, Drawing, Item, Layer, fit};
-use crate::geometry::{Affine, BezPath, PathEl, Rect, outline};
+use crate::drawing::{Anchor, Colour, Drawing, Glow, Item, Layer, fit};
+use crate::geometry::{Affine, BezPath, Ellipse, PathEl, Rect, Shape, outline};
 
 /// Pixels, row by row from the top: straight sRGB with alpha, 8 bits each, in the order red, green, blue, alpha.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -139,6 +139,8 @@ fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mas
             let path = Affine::translate(start) * text_outline(&text.text, text.size, font);
             fill(canvas, &path, text.colour, place, mask);
         }
+        Item::Glow(glow) => paint_glow(canvas, glow, place, mask),
+        Item::Shared(shared) => shared.items().iter().for_each(|item| paint_item(canvas, item, place, mask, font)),
         Item::Group(group) => {
             let place = place * group.transform;
             let clip = group.clip.as_ref().map(|path| clip_mask(canvas, path, place, mask));
@@ -179,6 +181,28 @@ fn fill(canvas: &mut Pixmap, path: &BezPath, colour: Colour, place: Affine, mask
     if let Some(path) = skia_path(path, place) {
         let mut paint = Paint::default();
         paint.set_color(skia_colour(colour));
+        canvas.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), mask);
+    }
+}
+
+/// A colour that fades from the middle of an ellipse to nothing at its rim.
+fn paint_glow(canvas: &mut Pixmap, glow: &Glow, place: Affine, mask: Option<&Mask>) {
+    let radii = glow.radii;
+    if glow.colour.a == 0 || radii.x <= 0.0 || radii.y <= 0.0 {
+        return;
+    }
+    // The gradient is a unit disc's, brought to the ellipse.
+    let to_ellipse = place * Affine::translate(glow.at.to_vec2()) * Affine::scale_non_uniform(radii.x, radii.y);
+    let [a, b, c, d, e, f] = to_ellipse.as_coeffs().map(|v| v as f32);
+    let colour = skia_colour(glow.colour);
+    let mut clear = colour;
+    clear.set_alpha(0.0);
+    let stops = vec![GradientStop::new(0.0, colour), GradientStop::new(1.0, clear)];
+    let (middle, moved) = (tiny_skia::Point::zero(), Transform::from_row(a, b, c, d, e, f));
+    let Some(shader) = RadialGradient::new(middle, 0.0, middle, 1.0, stops, SpreadMode::Pad, moved) else { return };
+    let ellipse = Ellipse::new(glow.at, radii, 0.0).to_path(1e-3);
+    if let Some(path) = skia_path(&ellipse, place) {
+        let paint = Paint { shader, ..Paint::default() };
         canvas.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), mask);
     }
 }

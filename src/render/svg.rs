@@ -70,6 +70,26 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
                 Escaped(&text.text)
             );
         }
+        Item::Glow(glow) => {
+            *clips += 1;
+            let _ = writeln!(
+                out,
+                "<radialGradient id=\"picture-glow-{clips}\"><stop offset=\"0\" stop-color=\"{0}\" stop-opacity=\"{1}\"/>\
+                 <stop offset=\"1\" stop-color=\"{0}\" stop-opacity=\"0\"/></radialGradient>",
+                glow.colour.hex(),
+                Short(f64::from(glow.colour.a) / 255.0)
+            );
+            let _ = writeln!(
+                out,
+                "<ellipse{} cx=\"{}\" cy=\"{}\" rx=\"{}\" ry=\"{}\" fill=\"url(#picture-glow-{clips})\"/>",
+                id(&glow.name),
+                Short(glow.at.x),
+                Short(glow.at.y),
+                Short(glow.radii.x),
+                Short(glow.radii.y)
+            );
+        }
+        Item::Shared(shared) => shared.items().iter().for_each(|item| write_item(out, item, clips)),
         Item::Group(group) => {
             let mut clip = String::new();
             if let Some(path) = &group.clip {
@@ -77,8 +97,7 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
                 let _ = write!(clip, " clip-path=\"url(#picture-clip-{clips})\"");
                 let _ = writeln!(out, "<clipPath id=\"picture-clip-{clips}\"><path d=\"{}\"/></clipPath>", data(path));
             }
-            let id = if group.name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(&group.name)) };
-            let _ = writeln!(out, "<g{id}{clip}{}>", transform(group.transform));
+            let _ = writeln!(out, "<g{}{clip}{}>", id(&group.name), transform(group.transform));
             for item in &group.items {
                 write_item(out, item, clips);
             }
@@ -91,8 +110,12 @@ fn write_path(out: &mut String, name: &str, path: &BezPath, fill: &str) {
     if path.elements().is_empty() {
         return;
     }
-    let id = if name.is_empty() { String::new() } else { format!("id=\"{}\" ", Escaped(name)) };
-    let _ = writeln!(out, "<path {id}d=\"{}\"{fill}/>", data(path));
+    let _ = writeln!(out, "<path{} d=\"{}\"{fill}/>", id(name), data(path));
+}
+
+/// The attribute with a thing's name; nothing where it has none.
+fn id(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(name)) }
 }
 
 fn fill(colour: crate::drawing::Colour) -> String {
