@@ -5,9 +5,11 @@
 mod colour;
 mod fingerprint;
 mod oklab;
+mod raster;
 
 pub use colour::Colour;
 pub use oklab::{Oklab, Oklch};
+pub use raster::Raster;
 
 use crate::geometry::{Affine, BezPath, Point, Rect, Ribbon};
 
@@ -47,6 +49,8 @@ pub enum Item {
     Text(Text),
     /// Several things moved or clipped together.
     Group(Group),
+    /// Pixels, such as a photo.
+    Picture(Raster),
 }
 
 /// A filled area, non-zero winding.
@@ -150,7 +154,7 @@ impl Drawing {
             match item {
                 Item::Text(text) => text.text = say(&text.text),
                 Item::Group(group) => group.items.iter_mut().for_each(|item| change(item, say)),
-                Item::Area(_) | Item::Ink(_) => {}
+                Item::Area(_) | Item::Ink(_) | Item::Picture(_) => {}
             }
         }
         self.layers.iter_mut().flat_map(|l| &mut l.items).for_each(|item| change(item, say));
