@@ -5,10 +5,12 @@
 mod colour;
 mod fingerprint;
 mod oklab;
+mod raster;
 mod shared;
 
 pub use colour::Colour;
 pub use oklab::{Oklab, Oklch};
+pub use raster::Raster;
 pub use shared::Shared;
 
 use crate::geometry::{Affine, BezPath, Point, Rect, Ribbon, Vec2};
@@ -53,6 +55,8 @@ pub enum Item {
     Group(Group),
     /// Things that many drawings have in common.
     Shared(Shared),
+    /// Pixels, such as a photo.
+    Picture(Raster),
 }
 
 /// A filled area, non-zero winding.
@@ -186,7 +190,7 @@ impl Drawing {
                     items.iter_mut().for_each(|item| change(item, say));
                     *shared = Shared::new(items);
                 }
-                Item::Area(_) | Item::Ink(_) | Item::Glow(_) => {}
+                Item::Area(_) | Item::Ink(_) | Item::Glow(_) | Item::Picture(_) => {}
             }
         }
         self.layers.iter_mut().flat_map(|l| &mut l.items).for_each(|item| change(item, say));

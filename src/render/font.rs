@@ -86,7 +86,7 @@ pub fn uncovered_in(drawing: &Drawing) -> Option<char> {
             Item::Text(text) => uncovered(&text.text),
             Item::Group(group) => group.items.iter().find_map(of),
             Item::Shared(shared) => shared.items().iter().find_map(of),
-            Item::Area(_) | Item::Ink(_) | Item::Glow(_) => None,
+            Item::Area(_) | Item::Ink(_) | Item::Glow(_) | Item::Picture(_) => None,
         }
     }
     drawing.layers.iter().flat_map(|l| &l.items).find_map(of)

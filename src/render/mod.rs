@@ -5,6 +5,7 @@
 mod font;
 mod pixels;
 mod png;
+mod raster;
 mod svg;
 
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};

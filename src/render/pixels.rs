@@ -148,6 +148,7 @@ fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mas
                 paint_item(canvas, item, place, clip.as_ref().or(mask), font);
             }
         }
+        Item::Picture(raster) => super::raster::paint(canvas, raster, place, mask),
     }
 }
 
@@ -208,7 +209,7 @@ fn paint_glow(canvas: &mut Pixmap, glow: &Glow, place: Affine, mask: Option<&Mas
 }
 
 /// The path in pixels. Moved in 64 bits and rounded once.
-fn skia_path(path: &BezPath, place: Affine) -> Option<tiny_skia::Path> {
+pub(super) fn skia_path(path: &BezPath, place: Affine) -> Option<tiny_skia::Path> {
     let mut builder = PathBuilder::with_capacity(path.elements().len(), path.elements().len() * 2);
     let at = |p: crate::geometry::Point| {
         let q = place * p;

@@ -103,6 +103,17 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
             }
             out.push_str("</g>\n");
         }
+        Item::Picture(raster) => {
+            let id = if raster.name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(&raster.name)) };
+            let _ = writeln!(
+                out,
+                "<image{id} width=\"{}\" height=\"{}\"{} href=\"{}\"/>",
+                raster.width(),
+                raster.height(),
+                transform(raster.place()),
+                super::raster::data_uri(raster)
+            );
+        }
     }
 }
 

@@ -1,0 +1,188 @@
+//! Pictures of pixels inside drawings: painted with as many pixels as can be seen, or carried whole as a PNG.
+
+use tiny_skia::{FillRule, FilterQuality, IntSize, Mask, Paint, Pattern, Pixmap, PremultipliedColorU8, SpreadMode};
+
+use crate::drawing::Raster;
+use crate::geometry::{Affine, Shape};
+
+/// Paints the raster. Where it is drawn at half its size or smaller, whole blocks of its pixels are averaged first,
+/// so that nothing flickers or is skipped; between pixels it is bilinear.
+pub(super) fn paint(canvas: &mut Pixmap, raster: &Raster, place: Affine, mask: Option<&Mask>) {
+    let place = place * raster.place();
+    let [a, b, c, d, _, _] = place.as_coeffs();
+    let blocks = |scale: f64, side: usize| ((1.0 / scale.max(1e-6)) as usize).clamp(1, side);
+    let (across, down) = (blocks(a.hypot(b), raster.width()), blocks(c.hypot(d), raster.height()));
+    let Some(pixels) = averaged(raster, across, down) else { return };
+    // Blocks at the border may be cut, but all have one size in the plane.
+    let place_blocks = place * Affine::scale_non_uniform(across as f64, down as f64);
+    let [a, b, c, d, e, f] = place_blocks.as_coeffs().map(|v| v as f32);
+    let Some(path) = super::pixels::skia_path(&raster.bounds().to_path(0.1), place) else { return };
+    let transform = tiny_skia::Transform::from_row(a, b, c, d, e, f);
+    let paint = Paint {
+        shader: Pattern::new(pixels.as_ref(), SpreadMode::Pad, FilterQuality::Bilinear, 1.0, transform),
+        ..Paint::default()
+    };
+    canvas.fill_path(&path, &paint, FillRule::Winding, tiny_skia::Transform::identity(), mask);
+}
+
+/// The raster with `across` × `down` of its pixels averaged to one, premultiplied.
+fn averaged(raster: &Raster, across: usize, down: usize) -> Option<Pixmap> {
+    let (width, height) = (raster.width().div_ceil(across), raster.height().div_ceil(down));
+    let size = IntSize::from_wh(u32::try_from(width).ok()?, u32::try_from(height).ok()?)?;
+    let mut bytes = Vec::with_capacity(width * height * 4);
+    for rows in raster.rgba().chunks(raster.width() * 4 * down) {
+        let mut sums = vec![[0_u64; 4]; width];
+        let rows_here = rows.len() / (raster.width() * 4);
+        for row in rows.chunks_exact(raster.width() * 4) {
+            for (sum, block) in sums.iter_mut().zip(row.chunks(4 * across)) {
+                for p in block.chunks_exact(4) {
+                    let alpha = u64::from(p[3]);
+                    (0..3).for_each(|k| sum[k] += u64::from(p[k]) * alpha);
+                    sum[3] += alpha;
+                }
+            }
+        }
+        for (x, sum) in sums.iter().enumerate() {
+            let count = (rows_here * across.min(raster.width() - x * across)) as u64;
+            let alpha = ((sum[3] + count / 2) / count).min(255) as u8;
+            let channel = |k: usize| (((2 * sum[k] + count * 255) / (2 * count * 255)) as u8).min(alpha);
+            let [r, g, b] = [0, 1, 2].map(channel);
+            let pixel = PremultipliedColorU8::from_rgba(r, g, b, alpha).unwrap_or(PremultipliedColorU8::TRANSPARENT);
+            bytes.extend([pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]);
+        }
+    }
+    Pixmap::from_vec(bytes, size)
+}
+
+/// The raster as a `data:` address of a PNG; RGB where it is opaque, which is a third smaller.
+pub(super) fn data_uri(raster: &Raster) -> String {
+    let opaque = raster.rgba().chunks_exact(4).all(|p| p[3] == 255);
+    let rgb: Vec<u8>;
+    let (kind, data) = if opaque {
+        rgb = raster.rgba().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+        (png::ColorType::Rgb, &rgb[..])
+    } else {
+        (png::ColorType::Rgba, raster.rgba())
+    };
+    let mut bytes = Vec::with_capacity(64 << 10);
+    let encoded = (|| {
+        let size = |v: usize| u32::try_from(v).unwrap_or(u32::MAX);
+        let mut encoder = png::Encoder::new(&mut bytes, size(raster.width()), size(raster.height()));
+        encoder.set_color(kind);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Balanced);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(data)?;
+        writer.finish()
+    })();
+    // Only a picture of more than four thousand million pixels a side is refused: it then shows as missing.
+    if encoded.is_err() {
+        bytes.clear();
+    }
+    format!("data:image/png;base64,{}", base64(&bytes))
+}
+
+/// Bytes in the letters of RFC 4648.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let word = three.iter().enumerate().fold(0_u32, |w, (i, b)| w | u32::from(*b) << (16 - 8 * i));
+        for i in 0..4 {
+            let letter = LETTERS[(word >> (18 - 6 * i) & 63) as usize];
+            text.push(if i <= three.len() { char::from(letter) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Colour, Drawing, Item, Layer};
+    use crate::geometry::Rect;
+    use crate::render::{Painter, to_svg};
+
+    fn shown(raster: Raster, side: f64) -> Drawing {
+        Drawing {
+            view: Rect::new(0.0, 0.0, side, side),
+            title: String::new(),
+            description: String::new(),
+            background: Some(Colour::WHITE),
+            layers: vec![Layer { name: "static".into(), items: vec![Item::Picture(raster)] }],
+        }
+    }
+
+    fn stripes(side: usize) -> Raster {
+        let pixel = |i: usize| if (i % side).is_multiple_of(2) { [0, 0, 0, 255] } else { [255, 255, 255, 255] };
+        Raster::new("photo", side, side, (0..side * side).flat_map(pixel).collect::<Vec<u8>>())
+    }
+
+    #[test]
+    fn base64_is_that_of_the_standard() {
+        let of = |text: &str| base64(text.as_bytes());
+        assert_eq!(["", "f", "fo", "foo", "foobar"].map(of), ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYmFy"]);
+    }
+
+    #[test]
+    fn a_raster_at_its_own_size_keeps_every_pixel_and_reduced_it_is_their_mean() {
+        let at = |painter: &mut Painter, side: f64| {
+            painter.paint(&shown(stripes(32).placed_in(Rect::new(0.0, 0.0, side, side)), side))
+        };
+        let whole = at(&mut Painter::new(32, 32).unwrap(), 32.0);
+        assert_eq!(whole.rgba, stripes(32).rgba());
+        for side in [16_u32, 8, 4] {
+            let small = at(&mut Painter::new(side, side).unwrap(), f64::from(side));
+            let wrong = small.rgba.chunks_exact(4).filter(|p| p[0].abs_diff(128) > 1 || p[3] != 255).count();
+            assert_eq!(wrong, 0, "{side}");
+        }
+    }
+
+    #[test]
+    fn what_is_transparent_does_not_colour_what_is_averaged() {
+        let pixel = |i: usize| if i.is_multiple_of(2) { [255, 0, 0, 255] } else { [0, 255, 0, 0] };
+        let raster = Raster::new("", 8, 8, (0..64).flat_map(pixel).collect::<Vec<u8>>());
+        let small = averaged(&raster, 2, 2).unwrap();
+        assert!(small.pixels().iter().all(|p| p.green() == 0 && p.red().abs_diff(128) <= 1 && p.red() == p.alpha()));
+    }
+
+    #[test]
+    fn a_turned_raster_is_painted_where_its_corners_are() {
+        let red = Raster::new("", 4, 4, [255, 0, 0, 255].repeat(16));
+        let place = Affine::translate((20.0, 4.0)) * Affine::rotate(std::f64::consts::FRAC_PI_2) * Affine::scale(2.0);
+        let picture = Painter::new(32, 32).unwrap().paint(&shown(red.placed(place), 32.0));
+        assert_eq!(picture.pixel(15, 8), Some([255, 0, 0, 255]));
+        assert_eq!(picture.pixel(25, 8), Some([255; 4]));
+    }
+
+    #[test]
+    fn an_svg_carries_the_pixels_whole() {
+        let raster = stripes(6).placed_in(Rect::new(10.0, 10.0, 22.0, 22.0));
+        let svg = to_svg(&shown(raster.clone(), 32.0), 32, 32);
+        let (_, rest) = svg.split_once("href=\"data:image/png;base64,").unwrap();
+        let text = rest.split('"').next().unwrap();
+        let letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        let bits: Vec<u32> = text.chars().filter_map(|c| letters.find(c)).map(|n| n as u32).collect();
+        let bytes: Vec<u8> = bits
+            .chunks(4)
+            .flat_map(|four| {
+                let word = four.iter().enumerate().fold(0, |w, (i, b)| w | b << (18 - 6 * i));
+                word.to_be_bytes()[1..four.len()].to_vec()
+            })
+            .collect();
+        let decoded = image::load_from_memory(&bytes).unwrap().into_rgba8();
+        assert_eq!(decoded.as_raw(), raster.rgba());
+        assert!(svg.contains("transform=\"matrix(2 0 0 2 10 10)\""));
+    }
+
+    #[test]
+    fn another_pixel_or_another_place_is_another_fingerprint() {
+        let first = shown(stripes(6), 32.0);
+        let mut pixels = stripes(6).rgba().to_vec();
+        pixels[77] ^= 1;
+        let print = first.fingerprint();
+        assert_eq!(print, shown(stripes(6), 32.0).fingerprint());
+        assert_ne!(print, shown(Raster::new("photo", 6, 6, pixels), 32.0).fingerprint());
+        assert_ne!(print, shown(stripes(6).placed(Affine::translate((0.1, 0.0))), 32.0).fingerprint());
+    }
+}
