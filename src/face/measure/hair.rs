@@ -1,0 +1,228 @@
+//! The hair: what of the mask is hair indeed, its outlines, and the 25 points round it.
+
+use super::mask::{CELL, COLUMNS, Mask, ROWS, boxed, centre, column_at, row_at, squared_distances};
+use super::outline::{area, loops, simplified};
+use super::segment::{Regions, ear};
+use super::shape::Shape;
+use super::colours::median;
+use super::frame::Lab;
+use crate::face::{FeaturePoint as P, HairKind};
+use crate::geometry::{Point, Vec2};
+
+/// How far a simplified outline may stray from the measured one, in units: at 2.3 hair keeps 50 to 60 vertices.
+const TOLERANCE: f64 = 2.3;
+/// The smallest piece of hair, in square units: less is a stray strand.
+const LEAST_PIECE: f64 = 350.0;
+/// The smallest hole in hair, in square units.
+const LEAST_HOLE: f64 = 260.0;
+
+/// The hair in units.
+pub(super) struct Found {
+    pub kind: HairKind,
+    /// Outlines of what is seen, largest first.
+    pub front: Vec<Vec<Point>>,
+    /// The 25 vertices of the first one.
+    pub vertices: Vec<usize>,
+    /// Outlines of what lies behind the head.
+    pub back: Vec<Vec<Point>>,
+    /// The cells of what is seen.
+    pub mask: Mask,
+    /// How much of the left and the right ear is seen, 0 to 1.
+    pub ears: [f64; 2],
+    /// The highest place of head or hair.
+    pub top: f64,
+    /// The median colour of what is seen; none where there is none.
+    pub colour: Option<Lab>,
+    pub note: String,
+}
+
+/// The hair of segmented cells.
+pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
+    let head = Mask::of(|c| regions.inside[c] && regions.back()[c] < 0.5);
+    let head = head.pieces().into_iter().next().unwrap_or_else(Mask::none);
+    let raw = Mask::of(|c| regions.hair()[c] > 0.5);
+    let mask = without_shade(raw, shape);
+    let (ears, mask) = with_hidden_ears(mask, regions, shape);
+    let mask = Mask(mask.opened(1.5).0);
+    let mask = pieces(&mask, shape);
+    let mask = without_brows(mask, shape).without_holes(LEAST_HOLE);
+    let mask = pieces(&mask, shape);
+    let top = top(&head.or(&mask));
+    let kind = HairKind::Straight;
+    let inner = mask.grown(-2.0);
+    let colour = median(&inner.cells().map(|c| regions.lab[c]).collect::<Vec<_>>());
+    let band = Mask::of(|c| regions.inside[c] && head.0[c] && regions.from_face[c] > 4.0 && centre(c).y < shape.ear_top - 4.0);
+    let b = median(&band.cells().map(|c| regions.lab[c]).collect::<Vec<_>>()).unwrap_or(skin);
+    let covered = band.and(&mask).count() as f64 / band.count().max(1) as f64;
+    let d = |c: Option<Lab>| c.map_or("-".into(), |c| format!("{:.3} {:.3} {:.3}", c[0]-skin[0], c[1]-skin[1], c[2]-skin[2]));
+    let side = Mask::of(|c| band.0[c] && centre(c).y > shape.ear_top - 40.0 && regions.from_face[c] < 22.0);
+    let upper = Mask::of(|c| band.0[c] && centre(c).y < shape.ear_top - 40.0);
+    let st = |m: &Mask| { let mut l: Vec<Lab> = m.cells().map(|c| regions.lab[c]).collect(); l.sort_by(|a,b| a[0].total_cmp(&b[0])); let c = median(&l).unwrap_or(skin); let q = |t: f64| l.get((l.len() as f64 * t) as usize).map_or(0.0, |c| c[0]); format!("L/L {:.2} a {:.3} b {:.3} n {} q10 {:.2} q90 {:.2}", c[0]/skin[0], c[1]/c[0]-skin[1]/skin[0], c[2]/c[0]-skin[2]/skin[0], l.len(), q(0.1)/skin[0], q(0.9)/skin[0]) };
+    let fore = Mask::of(|c| regions.from_face[c] < -4.0 && regions.from_face[c] > -25.0 && centre(c).y < shape.brows - 8.0 && regions.skin()[c] > 0.5);
+    let fl = median(&fore.cells().map(|c| regions.lab[c]).collect::<Vec<_>>()).unwrap_or(skin);
+    let all = upper.or(&side); let n = all.count() as f32;
+    let sh = |t: &dyn Fn(Lab) -> bool| all.cells().filter(|c| t(regions.lab[*c])).count() as f32 / n;
+    let hl = sh(&|c| c[0] > 1.05 * fl[0]);
+    let ash = sh(&|c| c[0] <= 1.05 * fl[0] && c[1]/c[0] < fl[1]/fl[0] - 0.02);
+    let dark = sh(&|c| c[0] < 0.9 * fl[0]);
+    eprintln!("area {:.0} | upper {} | fore {} | light {hl:.2} ash {ash:.2} dark {dark:.2}", mask.area(), st(&upper), st(&fore));
+    let note = format!("cap {:.0} covered {:.2} skin {:.2} {:.3} {:.3} hair-skin {} cap-skin {}", band.area(), covered, skin[0], skin[1], skin[2], d(colour), d(Some(b)));
+    let field = field(regions, &mask);
+    let (front, vertices) = outlines(&field);
+    let back = back(&mask, shape);
+    Found { kind, front, vertices, back, mask, ears, top, colour, note }
+}
+
+/// Without what is as dark as hair where none grows: the throat, the neck in the shade, the cheek's edge.
+fn without_shade(raw: Mask, shape: &Shape) -> Mask {
+    let throat = Mask::of(|c| {
+        let p = centre(c);
+        let x = p.x.abs();
+        (p.y > shape.lobe && x < 0.72 * shape.half_jaw) || (p.y > shape.chin - 12.0 && x < 0.9 * shape.half_jaw)
+    });
+    let mut mask = raw.without(&throat);
+    // Thin strips below the lobe are the neck's shadow; thin strips before the ears the cheek's.
+    let low = Mask::of(|c| mask.0[c] && centre(c).y > shape.lobe);
+    mask = mask.without(&low.without(&low.opened(4.5).grown(4.0)));
+    let side = Mask::of(|c| mask.0[c] && centre(c).y > 6.0 && centre(c).x.abs() < shape.ears + 3.0);
+    mask = mask.without(&side.without(&side.opened(5.0).grown(5.0)));
+    // Hair that falls beside the neck is broad beneath the lobe.
+    for sign in [-1.0, 1.0] {
+        let row = row_at(shape.lobe + 16.0);
+        let beside: usize = (row.saturating_sub(3)..(row + 3).min(ROWS))
+            .flat_map(|r| (0..COLUMNS).map(move |k| r * COLUMNS + k))
+            .filter(|c| mask.0[*c] && centre(*c).x * sign > 0.93 * shape.half_jaw)
+            .count();
+        if beside as f64 * CELL / 6.0 < 9.0 {
+            mask = Mask::of(|c| mask.0[c] && !(centre(c).y > shape.lobe + 2.0 && centre(c).x * sign > 0.0));
+        }
+    }
+    mask
+}
+
+/// How much of each ear is seen; an ear under hair is hair.
+fn with_hidden_ears(mut mask: Mask, regions: &Regions, shape: &Shape) -> ([f64; 2], Mask) {
+    let p = &shape.points;
+    let sides = [[p[P::P10_2], p[P::P10_4], p[P::P10_6]], [p[P::P10_1], p[P::P10_3], p[P::P10_5]]];
+    let seen = sides.map(|[top, out, lobe]| {
+        let whole = Mask::polygon(&ear(top, out, lobe));
+        let skin = whole.cells().filter(|c| regions.skin()[*c] > 0.5 && !mask.0[*c]).count();
+        let seen = skin as f64 / whole.count().max(1) as f64;
+        if seen < 0.45 {
+            mask = mask.or(&Mask::of(|c| whole.0[c] && regions.back()[c] < 0.5));
+        }
+        seen
+    });
+    (seen, mask)
+}
+
+/// The pieces that are large enough, by themselves and against the largest: at most four.
+fn pieces(mask: &Mask, shape: &Shape) -> Mask {
+    let pieces = mask.pieces();
+    let Some(largest) = pieces.first().map(Mask::area) else { return Mask::none() };
+    let _ = shape;
+    pieces
+        .iter()
+        .take(4)
+        .filter(|p| p.area() > LEAST_PIECE && p.area() > 0.05 * largest)
+        .fold(Mask::none(), |all, p| all.or(p))
+}
+
+/// With a window round the brows: those under a fringe could not act (recipe part 6).
+fn without_brows(mut mask: Mask, shape: &Shape) -> Mask {
+    let p = &shape.points;
+    for (brow, eye) in [([P::P4_6, P::P4_4A, P::P4_4, P::P4_2], P::P3_6), ([P::P4_1, P::P4_3, P::P4_3A, P::P4_5], P::P3_5)] {
+        let mut window: Vec<Point> = brow.iter().map(|b| p[*b] - Vec2::new(0.0, 7.0)).collect();
+        window.extend(brow.iter().rev().map(|b| Point::new(p[*b].x, p[eye].y + 4.0)));
+        mask = mask.without(&Mask::polygon(&window));
+    }
+    mask
+}
+
+/// The highest row of the head that is at least 6 units wide.
+fn top(head: &Mask) -> f64 {
+    let row = head.0.chunks_exact(COLUMNS).position(|row| row.iter().filter(|v| **v).count() >= 3);
+    row.map_or(f64::NAN, |row| centre(row * COLUMNS).y - CELL / 2.0)
+}
+
+/// The mask with the soft edges of the labels, blurred by about one and a half units.
+fn field(regions: &Regions, mask: &Mask) -> Vec<f32> {
+    let near = squared_distances(mask);
+    let soft: Vec<f32> = regions
+        .hair()
+        .iter()
+        .enumerate()
+        .map(|(c, p)| match (mask.0[c], near[c] <= 2.0) {
+            (true, _) => p.max(0.55),
+            (_, true) => p.min(0.45),
+            _ => 0.0,
+        })
+        .collect();
+    // Twice a mean over three cells has a spread of 1.2 cells.
+    boxed(&boxed(&soft, 1), 1)
+}
+
+/// The outlines with few vertices, and which 25 of the first one the points are.
+fn outlines(field: &[f32]) -> (Vec<Vec<Point>>, Vec<usize>) {
+    let mut front = Vec::new();
+    let mut vertices = Vec::new();
+    for outline in loops(field) {
+        let size = area(&outline);
+        if front.is_empty() {
+            if size < LEAST_PIECE {
+                break;
+            }
+            let (left, right) = ends(&outline);
+            let (few, first) = simplified(&outline, left, right, TOLERANCE, P::HAIR);
+            vertices = first;
+            front.push(few);
+        } else if size > LEAST_PIECE / 2.0 || size < -LEAST_HOLE / 2.0 {
+            let far = (0..outline.len()).max_by(|a, b| {
+                outline[*a].distance(outline[0]).total_cmp(&outline[*b].distance(outline[0]))
+            });
+            let (few, _) = simplified(&outline, 0, far.unwrap_or(0), TOLERANCE, 4);
+            front.push(few);
+        }
+    }
+    (front, vertices)
+}
+
+/// The lowest vertices at the left and at the right: where `h.1` is, and where the hairline begins.
+fn ends(outline: &[Point]) -> (usize, usize) {
+    let middle = {
+        let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.x), h.max(p.x)));
+        // Hair at one side alone still has two: they are told apart about its own middle.
+        if low < -20.0 && high > 20.0 { 0.0 } else { (low + high) / 2.0 }
+    };
+    let lowest = |side: f64| {
+        (0..outline.len())
+            .filter(|i| (outline[*i].x - middle) * side >= 0.0)
+            .max_by(|a, b| outline[*a].y.total_cmp(&outline[*b].y))
+            .unwrap_or(0)
+    };
+    (lowest(-1.0), lowest(1.0))
+}
+
+/// What lies behind the head: every row filled between its sides where it has hair at both, gaps closed.
+fn back(mask: &Mask, _shape: &Shape) -> Vec<Vec<Point>> {
+    let mut filled = mask.clone();
+    for row in 0..ROWS {
+        let cells = &mut filled.0[row * COLUMNS..(row + 1) * COLUMNS];
+        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else { continue };
+        let wide = (last - first) as f64 * CELL > 60.0;
+        if wide && first < column_at(-30.0) && last > column_at(30.0) {
+            cells[first..=last].fill(true);
+        }
+    }
+    let closed = filled.closed(14.0).without_holes(1e9);
+    let soft = boxed(&boxed(&closed.field(), 1), 1);
+    loops(&soft)
+        .into_iter()
+        .filter(|o| area(o) > LEAST_PIECE)
+        .take(8)
+        .map(|o| {
+            let (left, right) = ends(&o);
+            simplified(&o, left, right, TOLERANCE, 4).0
+        })
+        .collect()
+}

@@ -1,0 +1,310 @@
+//! Which cells are hair, skin, clothes and what is behind: colour models and what the points let expect, smoothed
+//! along edges, learned anew from their own answer (as GrabCut, Rother et al. 2004, but with four classes, soft
+//! labels, and a guided filter, He et al. 2013, in place of the cut).
+
+use super::backdrop::Backdrop;
+use super::frame::{Frame, Lab};
+use super::mask::{CELLS, COLUMNS, Mask, ROWS, boxed, cells, centre, column_at, row_at, squared_distances};
+use super::mixture::{LEAST, Mixture};
+use super::shape::Shape;
+use crate::face::FeaturePoint as P;
+use crate::geometry::{Point, Vec2};
+
+/// The classes, as they index what is below.
+const BACK: usize = 0;
+const SKIN: usize = 1;
+const HAIR: usize = 2;
+const CLOTH: usize = 3;
+const CLASSES: usize = 4;
+
+/// How likely every cell is each of the four, 0 to 1.
+pub(super) struct Regions {
+    classes: [Vec<f32>; CLASSES],
+    /// What is behind.
+    pub backdrop: Backdrop,
+    /// The colours of the cells.
+    pub lab: Vec<Lab>,
+    /// Which cells the photo shows.
+    pub inside: Vec<bool>,
+    /// Units from the outline of the face, negative inside it.
+    pub from_face: Vec<f32>,
+}
+
+impl Regions {
+    pub fn hair(&self) -> &[f32] {
+        &self.classes[HAIR]
+    }
+    pub fn skin(&self) -> &[f32] {
+        &self.classes[SKIN]
+    }
+    pub fn back(&self) -> &[f32] {
+        &self.classes[BACK]
+    }
+    pub fn cloth(&self) -> &[f32] {
+        &self.classes[CLOTH]
+    }
+
+    /// How sure the labels around a place in units are, 0 to 1.
+    pub fn confidence(&self, at: Point) -> f64 {
+        let (row, column) = (row_at(at.y), column_at(at.x));
+        let (mut sum, mut count) = (0.0_f32, 0.0_f32);
+        for r in row.saturating_sub(2)..(row + 3).min(ROWS) {
+            for k in column.saturating_sub(2)..(column + 3).min(COLUMNS) {
+                let best = self.classes.iter().fold(0.0_f32, |m, class| m.max(class[r * COLUMNS + k]));
+                sum += (2.0 * best - 1.0).max(0.0);
+                count += 1.0;
+            }
+        }
+        f64::from(sum / count.max(1.0))
+    }
+
+    /// Tells the four apart.
+    pub fn of(frame: &Frame, shape: &Shape) -> Self {
+        let (lab, inside) = cells(frame);
+        let backdrop = Backdrop::of(&lab, &inside, shape);
+        let face = Mask::polygon(&shape.face);
+        let outside = squared_distances(&face);
+        let within = squared_distances(&face.not());
+        let from_face: Vec<f32> = outside.iter().zip(&within).map(|(o, i)| 2.0 * (o.sqrt() - i.sqrt())).collect();
+        let expected = expected(shape, &from_face);
+        let guide = Guide::of(&lab);
+        let behind: Vec<f32> = (0..CELLS).map(|c| backdrop.log(lab[c], c)).collect();
+
+        let cheeks = cheeks(shape, &lab);
+        let mut skin = skin_of(&cheeks);
+        let mut shaded = shaded(skin_of(&cheeks));
+        // What lies below the lobes or outside the face is skin in the shade as well.
+        let bright: Vec<bool> = (0..CELLS).map(|c| from_face[c] < 0.0 && centre(c).y < shape.lobe).collect();
+        let mut hair = first_hair(shape, &lab, &inside, &from_face, &behind, &shaded);
+        let mut cloth = first_cloth(shape, &lab, &inside);
+        let mut classes: [Vec<f32>; CLASSES] = Default::default();
+        for round in 0..3 {
+            let seen: [Option<Vec<f32>>; CLASSES] = [
+                None,
+                Some((0..CELLS).map(|c| if bright[c] { skin.log(lab[c]) } else { shaded.log(lab[c]) }).collect()),
+                hair.as_ref().map(|m| lab.iter().map(|c| m.log(*c)).collect()),
+                cloth.as_ref().map(|m| lab.iter().map(|c| m.log(*c)).collect()),
+            ];
+            let logits: [Vec<f32>; CLASSES] = std::array::from_fn(|k| {
+                (0..CELLS)
+                    .map(|c| {
+                        if !inside[c] {
+                            return if k == BACK { 0.0 } else { -20.0 };
+                        }
+                        let log = match (k, &seen[k]) {
+                            (BACK, _) => behind[c],
+                            (_, Some(log)) => log[c],
+                            (_, None) => return -20.0,
+                        };
+                        // Below this density a class says nothing of a colour: a twentieth of all colours alike.
+                        const FLOOR: f32 = -1.0;
+                        0.5 * log.max(FLOOR) + expected[k][c]
+                    })
+                    .collect()
+            });
+            classes = settled(&logits, &guide, if round == 2 { 3 } else { 2 });
+            if round < 2 {
+                let learn = |k: usize, parts: usize, test: &dyn Fn(usize) -> bool| {
+                    let samples: Vec<(Lab, f32)> = (0..CELLS)
+                        .filter(|c| c % 3 == 0 && inside[*c] && classes[k][*c] > 0.6 && test(*c))
+                        .map(|c| (lab[c], classes[k][c]))
+                        .collect();
+                    Mixture::of(&samples, parts, LEAST)
+                };
+                if let Some(found) = learn(SKIN, 3, &|c| bright[c]) {
+                    skin = found;
+                }
+                if let Some(found) = learn(SKIN, 4, &|c| from_face[c] < 10.0 || centre(c).y > shape.lobe) {
+                    shaded = found;
+                }
+                hair = learn(HAIR, 3, &|_| true).or(hair);
+                cloth = learn(CLOTH, 3, &|_| true).or(cloth);
+            }
+        }
+        Self { classes, backdrop, lab, inside, from_face }
+    }
+}
+
+/// Colours of cheeks and nose.
+fn cheeks(shape: &Shape, lab: &[Lab]) -> Vec<(Lab, f32)> {
+    let p = &shape.points;
+    let down = Vec2::new(0.0, 13.0);
+    let polygon = [
+        p[P::P3_12] + down,
+        p[P::P3_8] + down,
+        p[P::P3_11] + down,
+        p[P::P3_7] + down,
+        p[P::P8_3].lerp(p[P::P2_13], 0.5),
+        p[P::P9_1] + Vec2::new(3.0, 4.0),
+        p[P::P9_2] + Vec2::new(-3.0, 4.0),
+        p[P::P8_4].lerp(p[P::P2_14], 0.5),
+    ];
+    Mask::polygon(&polygon).cells().map(|c| (lab[c], 1.0)).collect()
+}
+
+/// Skin as the cheeks show it.
+fn skin_of(cheeks: &[(Lab, f32)]) -> Mixture {
+    let mixture = Mixture::of(cheeks, 2, [0.03, 0.01, 0.01]);
+    mixture.unwrap_or_else(|| Mixture::single([0.7, 0.03, 0.04], [0.1, 0.02, 0.02]))
+}
+
+/// The same also in the shade: less light scales all of OKLab alike.
+fn shaded(mixture: Mixture) -> Mixture {
+    let tone = mixture.heaviest();
+    let shade = |share: f32| tone.map(|v| v * share);
+    mixture.with(shade(0.85), [0.06, 0.015, 0.015], 0.15).with(shade(0.7), [0.06, 0.015, 0.015], 0.05)
+}
+
+/// Hair as the ring above the hairline shows it, what is skin or background left out.
+fn first_hair(
+    shape: &Shape,
+    lab: &[Lab],
+    inside: &[bool],
+    from_face: &[f32],
+    behind: &[f32],
+    skin: &Mixture,
+) -> Option<Mixture> {
+    // A colour of which nothing is known, spread over what hair can be.
+    const ANY: f32 = 4.5;
+    let ring: Vec<(Lab, f32)> = (0..CELLS)
+        .filter(|c| inside[*c] && (6.0..42.0).contains(&from_face[*c]) && centre(*c).y < shape.ear_top)
+        .map(|c| (lab[c], 1.0 / (1.0 + (behind[c] - ANY).exp() + (skin.log(lab[c]) - ANY).exp())))
+        .collect();
+    Mixture::of(&ring, 3, LEAST)
+}
+
+/// Clothes as the bottom of the frame shows them.
+fn first_cloth(shape: &Shape, lab: &[Lab], inside: &[bool]) -> Option<Mixture> {
+    let samples: Vec<(Lab, f32)> = (0..CELLS)
+        .filter(|c| c % 3 == 0 && inside[*c] && {
+            let p = centre(*c);
+            p.y > shape.chin + 75.0 && p.x.abs() < 190.0
+        })
+        .map(|c| (lab[c], 1.0))
+        .collect();
+    Mixture::of(&samples, 3, LEAST)
+}
+
+/// What the points let expect of every cell: logarithms of odds, by class.
+fn expected(shape: &Shape, from_face: &[f32]) -> [Vec<f32>; CLASSES] {
+    let p = &shape.points;
+    let ears = [
+        [p[P::P10_2], p[P::P10_4], p[P::P10_6]],
+        [p[P::P10_1], p[P::P10_3], p[P::P10_5]],
+    ]
+    .map(|[top, out, lobe]| Mask::polygon(&ear(top, out, lobe)));
+    let mut found: [Vec<f32>; CLASSES] = std::array::from_fn(|_| vec![0.0; CELLS]);
+    for c in 0..CELLS {
+        let at = centre(c);
+        let off = from_face[c];
+        let ear = ears.iter().any(|e| e.0[c]);
+        let [back, skin, hair, cloth] = odds(shape, at, off, ear);
+        found[BACK][c] = back;
+        found[SKIN][c] = skin;
+        found[HAIR][c] = hair;
+        found[CLOTH][c] = cloth;
+    }
+    found
+}
+
+/// The area of an ear.
+pub(super) fn ear(top: Point, out: Point, lobe: Point) -> [Point; 5] {
+    let side = out.x.signum();
+    let by = |p: Point, x: f64, y: f64| p + Vec2::new(side * x, y);
+    [top, by(out, 3.0, 0.0), by(out.midpoint(lobe), 3.0, 0.0), by(lobe, -2.0, 2.0), by(top, -6.0, 6.0)]
+}
+
+/// Background, skin, hair, clothes at one place, `off` units from the face's outline.
+fn odds(shape: &Shape, at: Point, off: f32, ear: bool) -> [f32; CLASSES] {
+    let (x, y) = (at.x.abs(), at.y);
+    let cloth = (-6.0 + 6.0 * ((y - shape.chin - 5.0) / 35.0).clamp(0.0, 1.0)) as f32;
+    if off < 0.0 {
+        let deep = -off;
+        let mouth = shape.points[P::P9_15].y;
+        let hair = if y < shape.brows - 6.0 {
+            -0.7 - deep / 25.0
+        } else if y > mouth && x < 0.8 * shape.half_jaw {
+            -6.0
+        } else if y > shape.lobe {
+            -(3.0 + deep / 5.0).min(6.0)
+        } else {
+            -(0.7 + deep / 5.0).min(6.0)
+        };
+        return [-2.0 - deep.min(6.0), 0.3, hair, -8.0];
+    }
+    if ear {
+        return [-1.5, 0.5, 0.0, -8.0];
+    }
+    let middle = (shape.ear_top + shape.lobe) / 2.0;
+    if y < middle {
+        let back = -1.5 + (off / 40.0).min(2.0);
+        return [back, -0.7 - off / 8.0, 0.6 - (off / 120.0).min(1.5), -8.0];
+    }
+    if x < 0.85 * shape.half_jaw {
+        return [-3.0, 1.0, -3.0, cloth];
+    }
+    let back = -1.0 + (off / 40.0).min(1.5);
+    [back, -0.8 - off / 40.0, -(off / 80.0).min(2.0), cloth]
+}
+
+/// The lightness that smoothing follows, and its local mean and spread.
+struct Guide {
+    light: Vec<f32>,
+    mean: Vec<f32>,
+    inverse: Vec<f32>,
+}
+
+/// Half a window of the guided filter, in cells.
+const REACH: usize = 4;
+
+impl Guide {
+    fn of(lab: &[Lab]) -> Self {
+        // Lightness steps below 0.03 are no edges.
+        const FLAT: f32 = 0.03 * 0.03;
+        let light: Vec<f32> = lab.iter().map(|c| c[0]).collect();
+        let mean = boxed(&light, REACH);
+        let squares = boxed(&light.iter().map(|v| v * v).collect::<Vec<_>>(), REACH);
+        let inverse = squares.iter().zip(&mean).map(|(s, m)| 1.0 / ((s - m * m).max(0.0) + FLAT)).collect();
+        Self { light, mean, inverse }
+    }
+
+    /// `field` smoothed, edges of the lightness kept.
+    fn filter(&self, field: &[f32]) -> Vec<f32> {
+        let mean = boxed(field, REACH);
+        let joint = boxed(&field.iter().zip(&self.light).map(|(f, g)| f * g).collect::<Vec<_>>(), REACH);
+        let slope: Vec<f32> =
+            (0..CELLS).map(|c| (joint[c] - mean[c] * self.mean[c]) * self.inverse[c]).collect();
+        let offset: Vec<f32> = (0..CELLS).map(|c| mean[c] - slope[c] * self.mean[c]).collect();
+        let (slope, offset) = (boxed(&slope, REACH), boxed(&offset, REACH));
+        (0..CELLS).map(|c| slope[c] * self.light[c] + offset[c]).collect()
+    }
+}
+
+/// Mean field: every cell agrees with its neighbours on the same side of edges.
+fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Vec<f32>; CLASSES] {
+    // How much neighbours weigh against a cell's own colour.
+    const AGREE: f32 = 4.0;
+    let mut labels = softmax(logits);
+    for _ in 0..rounds {
+        let pulled: [Vec<f32>; CLASSES] = std::array::from_fn(|k| {
+            let smooth = guide.filter(&labels[k]);
+            logits[k].iter().zip(smooth).map(|(l, s)| l + AGREE * s).collect()
+        });
+        labels = softmax(&pulled);
+    }
+    labels
+}
+
+fn softmax(logits: &[Vec<f32>; CLASSES]) -> [Vec<f32>; CLASSES] {
+    let mut out: [Vec<f32>; CLASSES] = std::array::from_fn(|_| vec![0.0; CELLS]);
+    for c in 0..CELLS {
+        let four: [f32; CLASSES] = std::array::from_fn(|k| logits[k][c]);
+        let most = four.iter().fold(f32::NEG_INFINITY, |m, v| m.max(*v));
+        let e = four.map(|v| if v - most < -12.0 { 0.0 } else { (v - most).exp() });
+        let sum: f32 = e.iter().sum();
+        for (field, v) in out.iter_mut().zip(e) {
+            field[c] = v / sum;
+        }
+    }
+    out
+}
