@@ -4,6 +4,7 @@
 //! It owns no drawing: what a face looks like is a `figure`'s business.
 
 mod file;
+pub mod find;
 pub mod measure;
 mod point;
 pub mod rig;

@@ -1,0 +1,16 @@
+//! The face in a photo and its 47 fixed points.
+
+pub mod cascade;
+pub mod channels;
+pub mod detector;
+mod fit;
+mod frame;
+mod model;
+mod pyramid;
+pub mod shape;
+pub mod weights;
+
+pub use fit::{Fit, Known};
+pub use frame::Frame;
+pub use model::Model;
+pub use pyramid::Pyramid;
