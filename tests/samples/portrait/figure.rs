@@ -76,7 +76,7 @@ impl<'a> Figure<'a> {
             }
         };
         if p.1 > 140.0 {
-            offer(body::shirt(p, bare), Stuff::Shirt);
+            offer(body::shirt(p, self.person().neck), Stuff::Shirt);
         }
         if bare < 30.0 && p.2 > 60.0 && p.1 < 40.0 {
             offer(self.head.eyes(p), Stuff::Eye);
@@ -103,18 +103,21 @@ impl<'a> Figure<'a> {
 
     fn march(&self, from: V, to: V) -> Option<(V, Stuff)> {
         let (mut t, end) = bounds(from, to)?;
+        let mut last = None;
         for _ in 0..160 {
             let p = from + to * t;
             let (d, stuff) = self.nearest(p);
             if d.abs() < 0.04 {
                 return Some((p, stuff));
             }
+            // A ray that grazes an edge may creep: what it has all but touched counts.
+            last = (d < 0.6).then_some((p, stuff));
             t += d * 0.72;
             if t > end {
                 return None;
             }
         }
-        None
+        last
     }
 
     /// The part of a large lamp that is seen from `p` (Quilez's estimate: the narrowest passage, as an angle).
@@ -148,7 +151,7 @@ impl<'a> Figure<'a> {
         let mut n = smooth_n;
         let (surface, wrap) = match stuff {
             Stuff::Skin => {
-                n = (n + skin::relief(place, 0.045)).unit();
+                n = (n + skin::relief(place, 0.075)).unit();
                 (skin::at(self.head, &self.moles, place), 0.22)
             }
             Stuff::Eye => {
@@ -167,7 +170,7 @@ impl<'a> Figure<'a> {
         let key = self.stand.turned(rig.key);
         let fill = self.stand.turned(rig.fill);
         let up = self.stand.turned(V(0.0, -1.0, 0.0));
-        let seen = self.lamp(place + smooth_n * 0.6, key, rig.sharp) * self.mass.through(place, key, 0.55, 14);
+        let seen = self.lamp(place + smooth_n * 0.6, key, rig.sharp) * self.mass.through(place, key, 0.30, 14);
         let open = self.sky(place, smooth_n);
         let shut_in = self.mass.through(place, (smooth_n + see).unit(), 0.10, 8);
         let ambient = open * (0.35 + 0.65 * shut_in);
@@ -194,6 +197,8 @@ impl<'a> Figure<'a> {
         if stuff == Stuff::Eye {
             shine = shine * 0.12 + self.window(n, see, key) * (0.55 + 0.45 * seen);
         }
+        let shine =
+            if stuff == Stuff::Eye { shine } else { V::all(shine.0.min(0.30) * smooth(0.02, 0.22, smooth_n.dot(see))) };
         Sample { stuff, place, near: self.stand.nearness(place), light, shine, albedo: surface.albedo }
     }
 

@@ -13,7 +13,7 @@ use crate::view::Canvas;
 const BLUR: f32 = 0.52;
 
 /// Deviation of the sensor's noise, in 1/255.
-const NOISE: f32 = 1.1;
+const NOISE: f32 = 1.3;
 
 /// sRGB bytes, row by row from the top, three to a pixel.
 pub fn develop(canvas: &Canvas, seed: u64) -> Vec<u8> {

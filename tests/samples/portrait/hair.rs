@@ -6,7 +6,6 @@ use crate::curve::Curve;
 use crate::head::{EYE, EYE_RADIUS, Head};
 use crate::noise::{Dice, cloud, grain};
 use crate::person::Cut;
-use crate::skull::CENTRE;
 use crate::vector::{V, mix, smooth, spot};
 
 /// One hair, from its root to its tip.
@@ -20,11 +19,11 @@ pub struct Strand {
 }
 
 /// How many hairs stand on the scalp.
-const BOB: usize = 46_000;
+const BOB: usize = 56_000;
 const SHORT: usize = 60_000;
 
 /// The hairline: the lowest y of the scalp for the angle from the front, in radians.
-fn hairline(cut: Cut) -> Curve {
+pub fn hairline(cut: Cut) -> Curve {
     match cut {
         Cut::Bob => Curve::through(&[
             (0.0, -101.0),
@@ -82,19 +81,20 @@ fn face_edge() -> Curve {
 /// All hairs of a head; the same for the same person.
 pub fn grow(head: &Head) -> Vec<Strand> {
     let cut = head.person.cut;
-    let (line, face) = (hairline(cut), face_edge());
+    let face = face_edge();
     let count = if cut == Cut::Bob { BOB } else { SHORT };
     let mut all: Vec<Strand> = (0..count)
         .into_par_iter()
         .filter_map(|i| {
             let mut dice = Dice::new(head.person.seed.wrapping_mul(1_000_003) ^ i as u64);
-            let root = root(head, &line, &mut dice)?;
+            let root = root(head, &mut dice)?;
             Some(match cut {
                 Cut::Bob => bob(head, &face, root, &mut dice),
                 Cut::Short => short(head, root, &mut dice),
             })
         })
         .collect();
+    down(head, &mut all);
     brows(head, &mut all);
     lashes(head, &mut all);
     all
@@ -107,19 +107,18 @@ struct Root {
 }
 
 /// A place on the scalp, or none where the dice fell on the face.
-fn root(head: &Head, line: &Curve, dice: &mut Dice) -> Option<Root> {
+fn root(head: &Head, dice: &mut Dice) -> Option<Root> {
     let (z, turn) = (dice.between(-1.0, 1.0), dice.between(0.0, std::f32::consts::TAU));
     let r = (1.0 - z * z).sqrt();
     let at = head.skull.surface(V(r * turn.cos(), z, r * turn.sin()));
-    let angle = at.0.abs().atan2(at.2 - CENTRE.2);
     let ragged = 3.0 * cloud(at * 0.16) + 2.0 * dice.normal();
-    let inside = line.at(angle) - at.1 + ragged;
-    (inside > 0.0).then_some(Root { at, inside })
+    let inside = head.within_hairline(at) + ragged;
+    (inside > 0.0 && dice.roll() < 0.25 + smooth(0.0, 12.0, inside)).then_some(Root { at, inside })
 }
 
 fn tint(head: &Head, at: V, dice: &mut Dice) -> V {
     // Locks differ a little, single hairs more; some are sun-bleached.
-    let lock = 1.0 + 0.25 * cloud(at * 0.11);
+    let lock = 1.0 + 0.5 * cloud(at * 0.17);
     let own = 1.0 + 0.3 * dice.normal().clamp(-1.6, 1.8);
     let warm = dice.between(0.0, 0.25);
     head.person.hair.by(V(1.0 + warm, 1.0 + 0.45 * warm, 1.0)) * (lock * own.max(0.3))
@@ -143,10 +142,14 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
     let comb = (comb - up * comb.dot(up)).unit();
     // Hair from above lies over hair from below.
     let high = smooth(60.0, -150.0, at.1);
-    let layer = 2.0 + 13.0 * high.powf(0.8) + 5.0 * dice.roll() * dice.roll() + 2.5 * grain(at * 0.05 + V::all(seed));
+    let layer = 2.0
+        + 15.0 * high.powf(0.8)
+        + 5.0 * dice.roll() * dice.roll()
+        + 2.5 * grain(at * 0.05 + V::all(seed))
+        + 3.5 * grain(at * 0.19);
     let stray = if dice.roll() < 0.025 { dice.between(0.5, 1.6) } else { 0.0 };
     let near_part = spot((at.0 - parting(at.2)) / 14.0) * front;
-    let mut direction = (comb + up * (0.25 + 0.35 * near_part)).unit();
+    let mut direction = (comb + up * (0.22 + 0.2 * near_part)).unit();
     let mut p = at;
     let step = 4.5;
     let tip = mix(148.0, 166.0, smooth(20.0, -60.0, at.2)) + 9.0 * dice.normal() * 0.6 + 5.0 * cloud(at * 0.09);
@@ -162,14 +165,23 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
         let wave = V(cloud(phase + V(0.0, run * 0.012, 0.0)), 0.0, cloud(phase + V(9.0, run * 0.012, 4.0)));
         let wild = V(grain(own * 7.0 + V::all(run * 0.02)), 0.0, grain(own * 9.0 + V::all(run * 0.02)));
         let keep = comb * (0.10 * smooth(120.0, 20.0, run));
-        let mut pull = V(0.0, 0.20, 0.0) + keep + wave * 0.07 + wild * (0.03 + 0.11 * stray);
+        let mut pull =
+            V(0.0, 0.20, 0.0) + keep + wave * mix(0.07, 0.13, smooth(0.0, 80.0, p.1)) + wild * (0.03 + 0.11 * stray);
         // The tips turn in under the jaw.
         let low = smooth(70.0, 150.0, p.1);
         pull = pull + V(-p.0.signum() * 0.10 * low, 0.0, -0.02 * low * p.2.signum());
         direction = (direction + pull).unit();
         let next = p + direction * step;
-        let far = head.skull.distance(next);
-        let cover = layer * smooth(0.0, 45.0, run) + stray * 4.0 * smooth(10.0, 90.0, run) * smooth(130.0, 40.0, p.1);
+        let far = head.skull.distance(head.rest(next));
+        let ear =
+            17.0 * spot(((next.1 - 30.0) / 50.0).hypot((next.2 + 14.0) / 36.0)) * smooth(70.0, 100.0, next.0.abs());
+        let cover = ear
+            + 2.2 * smooth(0.0, 4.0, run)
+            + (layer - 2.0) * smooth(0.0, 45.0, run)
+            + stray * 4.0 * smooth(10.0, 90.0, run) * smooth(130.0, 40.0, p.1);
+        let edge = smooth(10.0, 40.0, p.2) * smooth(0.0, -40.0, p.1) * smooth(30.0, 4.0, p.0 * side - face.at(p.1));
+        let from_part = (p.0 - parting(p.2)).hypot((-p.2 - 20.0).max(0.0)) + (p.1 + 130.0).max(0.0);
+        let cover = cover * mix(1.0, 0.3, edge) * mix(0.72, 1.0, smooth(0.0, 90.0, from_part)) + 1.0;
         let mut q = next;
         if far < cover {
             let push = (cover - far).min(step * 0.9);
@@ -178,10 +190,15 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
             q = next - out * ((far - cover - 2.0).min(step * 0.55));
         }
         // The face stays free: the hair is swept along the hairline and hangs as a curtain on either side.
-        let free = face.at(q.1) + 1.8 * own.0 + 2.5 * ragged + layer * 0.25;
+        let free = face.at(q.1) + 2.6 * own.0 + 4.0 * ragged + layer * 0.25;
         let ahead = smooth(15.0, 45.0, q.2);
-        if ahead > 0.0 && q.0 * at.0.signum() < free {
-            q.0 = mix(q.0, free * at.0.signum(), 0.35 * ahead);
+        if ahead > 0.0 && q.0 * side < free {
+            q.0 = mix(q.0, free * side, 0.35 * ahead);
+        }
+        // What hangs beside the face hangs before the ear, not before the cheek.
+        let rear = 54.0 + 6.0 * own.1;
+        if q.2 > rear && q.1 > -70.0 {
+            q.2 = mix(q.2, rear, 0.07 * smooth(-70.0, 0.0, q.1));
         }
         direction = (q - p).unit();
         p = q;
@@ -189,6 +206,36 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
     }
     let fine = smooth(0.0, 9.0, root.inside);
     Strand { points, width: mix(0.20, 0.34, fine), colour: tint(head, at, dice), mass: true }
+}
+
+/// The fine short hairs along the hairline, without which hair looks like a wig.
+fn down(head: &Head, all: &mut Vec<Strand>) {
+    let mut dice = Dice::new(head.person.seed ^ 0xd0);
+    let (count, most) = if head.person.cut == Cut::Bob { (26_000, 20.0) } else { (12_000, 5.0) };
+    for _ in 0..count {
+        let (z, turn) = (dice.between(-1.0, 0.3), dice.between(0.0, std::f32::consts::PI));
+        let r = (1.0f32 - z * z).sqrt();
+        let at = head.skull.surface(V(r * turn.cos(), z, r * turn.sin()));
+        let inside = head.within_hairline(at) + 2.0 * cloud(at * 0.2);
+        if at.2 < 10.0 || inside < -6.0 * dice.roll() || inside > 7.0 {
+            continue;
+        }
+        let up = head.skull.outward(at);
+        let side = if at.0 > parting(at.2) { 1.0 } else { -1.0 };
+        let back = V(side * dice.between(0.4, 1.0), dice.between(-0.9, 0.5), -0.7);
+        let mut direction = (back - up * (back.dot(up) - 0.3)).unit();
+        let length = most * dice.between(0.35, 1.0);
+        let mut p = at;
+        let mut points = vec![p];
+        let curl = V(dice.normal(), dice.normal(), dice.normal()) * 0.06;
+        for _ in 0..7 {
+            direction = (direction + curl - up * 0.06).unit();
+            p = p + direction * (length / 7.0);
+            p = p + up * (0.4 - head.skull.distance(p)).max(0.0);
+            points.push(p);
+        }
+        all.push(Strand { points, width: dice.between(0.10, 0.2), colour: tint(head, at, &mut dice), mass: true });
+    }
 }
 
 fn short(head: &Head, root: Root, dice: &mut Dice) -> Strand {
@@ -262,7 +309,7 @@ fn brows(head: &Head, all: &mut Vec<Strand>) {
                 px += a.cos() * length / 5.0;
                 py += a.sin() * length / 5.0;
             }
-            let tone = dice.between(0.7, 1.5);
+            let tone = dice.between(0.8, 1.5);
             let colour = head.person.hair * tone;
             let width = head.person.brow_width * dice.between(0.75, 1.15) * mix(1.0, 0.8, t);
             all.push(Strand { points, width, colour, mass: false });

@@ -1,9 +1,10 @@
 //! The head as a distance: the skull with nose, lips, lids, folds and ears on it, and the balls of the eyes in it.
 
 use crate::curve::Curve;
+use crate::hair::hairline;
 use crate::noise::grain;
 use crate::person::Person;
-use crate::skull::Skull;
+use crate::skull::{CENTRE, Skull};
 use crate::vector::{V, ball, carve, join, limb, smooth, spot};
 
 /// The ball that carries the lids. It is larger than an eye's (18 units): lids cover it from corner to corner.
@@ -12,7 +13,7 @@ pub const EYE_RADIUS: f32 = 26.0;
 pub const IRIS: f32 = 8.4;
 
 /// What a mouth has opened.
-pub const GAPE: f32 = 34.0;
+pub const GAPE: f32 = 31.0;
 
 /// The lines of the face, right half: x from the midline or the inner corner outwards.
 pub struct Lines {
@@ -24,6 +25,7 @@ pub struct Lines {
     pub lip_upper: Curve,
     pub lip_line: Curve,
     pub lip_lower: Curve,
+    pub hairline: Curve,
 }
 
 pub struct Head {
@@ -37,7 +39,10 @@ impl Lines {
         let h = person.lip_height;
         let lift = person.brow_lift;
         let up = |y: f32| 102.2 + (y - 102.2) * h;
-        let brow = |points: [(f32, f32); 6]| Curve::through(&points.map(|(x, y)| (x, y - lift)));
+        let brow = |points: [(f32, f32); 6]| {
+            let flat = |x: f32| 7.0 * (1.0 - person.arch) * spot((x - 63.0) / 22.0);
+            Curve::through(&points.map(|(x, y)| (x, y - lift + flat(x))))
+        };
         Lines {
             lid_upper: Curve::through(&[
                 (25.4, 6.0),
@@ -60,20 +65,20 @@ impl Lines {
             ]),
             crease: Curve::through(&[(28.0, -3.0), (36.0, -10.0), (48.0, -13.2), (60.0, -10.8), (71.0, -2.5)]),
             brow_upper: brow([
-                (19.5, -23.0),
-                (30.0, -28.5),
-                (46.0, -33.0),
-                (62.0, -35.5),
-                (76.0, -30.0),
-                (90.0, -15.0),
+                (21.0, -26.5),
+                (30.0, -30.2),
+                (46.0, -32.0),
+                (62.0, -34.0),
+                (76.0, -29.0),
+                (90.0, -15.5),
             ]),
             brow_lower: brow([
-                (19.5, -16.5),
-                (30.0, -19.5),
-                (46.0, -23.8),
-                (62.0, -27.3),
-                (76.0, -24.5),
-                (90.0, -14.0),
+                (21.0, -20.0),
+                (30.0, -22.2),
+                (46.0, -24.0),
+                (62.0, -26.8),
+                (76.0, -24.0),
+                (90.0, -14.5),
             ]),
             lip_upper: Curve::through(&[
                 (0.0, up(92.4)),
@@ -81,15 +86,16 @@ impl Lines {
                 (10.5, up(89.6)),
                 (17.0, up(91.6)),
                 (26.0, up(96.6)),
-                (38.0, 104.0),
+                (38.0, 103.2),
             ]),
-            lip_line: Curve::through(&[(0.0, 102.8), (5.0, 102.0), (13.0, 101.8), (24.0, 102.9), (38.0, 104.2)]),
+            lip_line: Curve::through(&[(0.0, 102.8), (5.0, 102.0), (13.0, 101.8), (24.0, 102.5), (38.0, 103.4)]),
+            hairline: hairline(person.cut),
             lip_lower: Curve::through(&[
                 (0.0, up(117.4)),
                 (9.0, up(117.0)),
                 (18.0, up(115.0)),
                 (28.0, up(110.6)),
-                (38.0, 104.6),
+                (38.0, 103.8),
             ]),
         }
     }
@@ -114,6 +120,11 @@ impl Head {
         Head { person, skull, lines }
     }
 
+    /// How far within the hairline a place on the head lies; negative on the face and the neck.
+    pub fn within_hairline(&self, p: V) -> f32 {
+        self.lines.hairline.at(p.0.abs().atan2(p.2 - CENTRE.2)) - p.1
+    }
+
     /// How far the lower lip has left the upper one at `x`.
     pub fn gap(&self, x: f32) -> f32 {
         let u = x / 35.0;
@@ -133,7 +144,7 @@ impl Head {
             let gap = self.gap(q.0.abs());
             let drop = GAPE * 0.9 * open * smooth(-10.0, 80.0, q.2);
             let below = q.1 - line;
-            q.1 -= below.min(gap) + (drop - gap.min(drop)) * smooth(gap, gap + 45.0, below);
+            q.1 -= below.min(gap) + (drop - gap.min(drop)) * smooth(gap, gap + 62.0, below);
         }
         q
     }
@@ -201,7 +212,8 @@ impl Head {
         // Under the eye: a soft bag and its lower edge.
         let low = l.lid_lower.below(p.0, p.1);
         let under = smooth(26.0, 36.0, p.0) * smooth(70.0, 58.0, p.0);
-        lid += under * (0.5 * spot((low - 2.2) / 1.2) - 0.7 * spot((low - 4.8) / 2.2) + 0.5 * spot((low - 10.0) / 3.0));
+        lid +=
+            under * (0.4 * spot((low - 2.2) / 1.2) - 0.4 * spot((low - 4.8) / 2.4) + 0.25 * spot((low - 10.0) / 3.5));
         if p.2 > EYE.2 { carve(lid, l.aperture(p.0, p.1), 1.6) } else { lid }
     }
 
@@ -241,7 +253,7 @@ impl Head {
         if self.person.open > 0.0 {
             let (y, gap) = (true_place.1, self.gap(x));
             let line = l.lip_line.at(x);
-            let cut = (line - y).max(y - line - gap) * 0.8;
+            let cut = ((line - y).max(y - line - gap) * 0.8).max(x - 35.0);
             let hollow = cut.max(true_place.2.mul_add(-1.0, 84.0));
             d = carve(d, hollow, 3.0);
         }
@@ -268,7 +280,7 @@ impl Head {
         // The crease round the wing of the nose.
         let w = self.person.nose;
         let round = ((p.0 - 18.0 * w) / 10.0 / w).hypot((p.1 - 56.0) / 10.5);
-        out - 1.2 * spot((round - 1.05) / 0.16) * smooth(16.0, 22.0, p.0) * smooth(40.0, 50.0, p.1)
+        out - 0.7 * spot((round - 1.03) / 0.2) * smooth(16.0, 22.0, p.0) * smooth(40.0, 50.0, p.1)
     }
 
     fn ear(&self, p: V, d: f32) -> f32 {
@@ -276,7 +288,7 @@ impl Head {
         let back = V(0.50, -0.10, -0.86);
         let out = V(0.86, 0.0, 0.50);
         let (a, b, c) = (q.dot(back), q.1 + 0.08 * q.0, q.dot(out));
-        let wide = 26.0 - 9.0 * smooth(-5.0, 44.0, b) - 2.0 * smooth(-20.0, -44.0, b);
+        let wide = 26.0 - 6.0 * smooth(-5.0, 40.0, b) - 2.0 * smooth(-20.0, -44.0, b);
         let round = ((a - 19.0) / wide).hypot((b + 1.0) / 43.0);
         if round > 2.0 || c.abs() > 40.0 {
             return d;

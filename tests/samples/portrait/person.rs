@@ -42,6 +42,8 @@ pub struct Person {
     pub ridge: f32,
     /// How far the brows are raised.
     pub brow_lift: f32,
+    /// How far the brows arch: 1 for a full arch, 0 for none.
+    pub arch: f32,
     /// How wide the neck is.
     pub neck: f32,
     pub shirt: V,
@@ -60,19 +62,20 @@ impl Person {
             seed: 35,
             skin: V(0.60, 0.385, 0.27),
             blush: 1.0,
-            lips: V(0.46, 0.185, 0.165),
+            lips: V(0.47, 0.195, 0.16),
             iris: V(0.13, 0.062, 0.028),
-            hair: V(0.046, 0.024, 0.0135),
+            hair: V(0.030, 0.0165, 0.0098),
             cut: Cut::Bob,
-            brow_hairs: 700,
-            brow_width: 0.33,
+            brow_hairs: 850,
+            brow_width: 0.28,
             lashes: (8.5, 4.0),
-            jaw: 0.87,
-            nose: 0.86,
+            jaw: 0.88,
+            nose: 0.82,
             lip_height: 1.08,
             chin: -4.0,
             ridge: 0.0,
-            brow_lift: 2.0,
+            brow_lift: 3.0,
+            arch: 0.9,
             neck: 0.93,
             shirt: V(0.10, 0.145, 0.19),
             stubble: 0.0,
@@ -91,16 +94,17 @@ impl Person {
             iris: V(0.05, 0.024, 0.012),
             hair: V(0.014, 0.011, 0.009),
             cut: Cut::Short,
-            brow_hairs: 1300,
-            brow_width: 0.42,
+            brow_hairs: 900,
+            brow_width: 0.34,
             lashes: (5.5, 3.0),
-            jaw: 1.05,
-            nose: 1.2,
+            jaw: 0.98,
+            nose: 1.14,
             lip_height: 1.22,
             chin: 5.0,
             ridge: 1.0,
-            brow_lift: -1.0,
-            neck: 1.14,
+            brow_lift: 0.0,
+            arch: 0.5,
+            neck: 1.24,
             shirt: V(0.50, 0.50, 0.48),
             stubble: 0.5,
             folds: 1.0,
@@ -114,7 +118,7 @@ impl Person {
             .iter()
             .map(|&(x, y, z)| {
                 let low = smooth(30.0, 135.0, y);
-                let x = x * (1.0 + (self.jaw - 1.0) * low);
+                let x = x * (1.0 + (self.jaw - 1.0) * (low + 0.6 * smooth(120.0, 165.0, y)));
                 let y = y + self.chin * smooth(115.0, 170.0, y) * smooth(20.0, 90.0, z);
                 let brow = smooth(-55.0, -28.0, y) * smooth(-5.0, -24.0, y) * smooth(85.0, 110.0, z);
                 V(x, y, z + self.ridge * 4.0 * brow)

@@ -14,12 +14,17 @@ pub struct Surface {
 /// Small dark spots that belong to one person: place in the picture's plane, radius, depth.
 pub fn moles(seed: u64) -> Vec<(f32, f32, f32, f32)> {
     let mut dice = Dice::new(seed ^ 0x301e);
-    (0..26)
+    (0..90)
         .map(|i| {
             let big = i < 3;
             let r = if big { dice.between(0.9, 1.3) } else { dice.between(0.45, 0.8) };
-            let depth = if big { 0.4 } else { dice.between(0.08, 0.22) };
-            (dice.between(-85.0, 85.0), dice.between(-5.0, 150.0), r, depth)
+            let depth = if big { 0.45 } else { dice.between(0.06, 0.26) };
+            // Most are freckles where the sun falls: over nose and cheeks.
+            if i % 3 == 0 {
+                (dice.between(-85.0, 85.0), dice.between(-70.0, 150.0), r, depth)
+            } else {
+                (44.0 * dice.normal(), 46.0 + 15.0 * dice.normal(), r, depth)
+            }
         })
         .collect()
 }
@@ -36,7 +41,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
 
     // Blood near the surface: redder; its lack over bone: yellower.
     let mut red = 0.0;
-    red += 0.55 * spot(((x - 62.0) / 30.0).hypot((y - 48.0) / 24.0)) * front;
+    red += 0.42 * spot(((x - 62.0) / 34.0).hypot((y - 50.0) / 30.0)) * front;
     red += 0.5 * spot((x / 17.0).hypot((y - 54.0) / 15.0)) * front;
     red += 0.35 * spot(((x - 20.0) / 9.0).hypot((y - 60.0) / 9.0)) * front;
     red += 0.25 * spot((x / 26.0).hypot((y - 158.0) / 18.0)) * front;
@@ -47,12 +52,16 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     let red = red * who.blush;
     let mut c = who.skin.by(V(1.0 + 0.02 * red, 1.0 - 0.24 * red, 1.0 - 0.22 * red));
 
+    // The scalp is dark with roots.
+    let scalp = smooth(-1.0, 12.0, head.within_hairline(place)) * smooth(110.0, 70.0, y);
+    c = c.lerp(who.hair * 1.6, 0.8 * scalp);
+
     // Around the eye: brownish on the lid, bluish in the hollow under it.
     let lid = front * smooth(-14.0, -8.0, l.crease.below(x, y)) * smooth(14.0, 6.0, l.lid_lower.below(x, y));
     let lid = lid * smooth(20.0, 28.0, x) * smooth(80.0, 68.0, x);
-    c = c.by(V::all(1.0).lerp(V(0.90, 0.81, 0.80), lid));
+    c = c.by(V::all(1.0).lerp(V(0.93, 0.87, 0.86), lid));
     let hollow = front * spot((l.lid_lower.below(x, y) - 9.0) / 6.0) * smooth(24.0, 32.0, x) * smooth(66.0, 48.0, x);
-    c = c.by(V::all(1.0).lerp(V(0.87, 0.81, 0.86), hollow));
+    c = c.by(V::all(1.0).lerp(V(0.90, 0.86, 0.89), hollow));
     // The groove of the lid keeps a darker line, and the lashes' roots darken the margin.
     let in_eye = smooth(24.0, 27.0, x) * smooth(71.0, 67.0, x) * front;
     let groove = spot(l.crease.below(x, y) / 1.3) * smooth(28.0, 34.0, x) * smooth(74.0, 66.0, x) * front;
@@ -68,7 +77,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     // Under the brow hairs the skin is tinted.
     let (top, low) = (l.brow_upper.below(x, y), -l.brow_lower.below(x, y));
     let brow = smooth(-1.5, 2.5, top.min(low)) * smooth(18.0, 28.0, x) * smooth(91.0, 78.0, x) * front;
-    c = c.lerp(who.hair.lerp(who.skin, 0.22), 0.34 * brow);
+    c = c.lerp(who.hair.lerp(who.skin, 0.2), 0.48 * brow);
 
     // A shaved beard greys the jaw.
     if who.stubble > 0.0 {
@@ -86,7 +95,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     gloss *= 1.0 - 0.6 * lid.max(hollow);
 
     // Blotches, pores, freckles.
-    c = c * (1.0 + 0.045 * patches + 0.04 * fine + 0.03 * grain(place * 0.9));
+    c = c * (1.0 + 0.06 * patches + 0.06 * fine + 0.05 * grain(place * 0.9));
     for (mx, my, r, depth) in moles {
         let d = ((q.0 - mx) / r).hypot((q.1 - my) / r);
         if d < 3.0 {
@@ -101,8 +110,8 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
         let shade = if y < l.lip_line.at(x) { 0.88 } else { 1.04 };
         let lip = who.lips * (lines * shade * (1.0 - 0.55 * seam));
         c = c.lerp(lip, lips * 0.92);
-        rough = mix(rough, 0.36, lips);
-        gloss = mix(gloss, 1.0, lips);
+        rough = mix(rough, 0.42, lips);
+        gloss = mix(gloss, 0.7, lips);
     }
     // Between the lips and in the nostrils little light is left.
     let hole = spot(((x - 9.6 * who.nose) / (4.6 * who.nose)).hypot((y - 65.2) / 3.2)) * front;
