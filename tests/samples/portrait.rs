@@ -66,7 +66,7 @@ fn scene(name: &str) -> Option<(Vec<(Person, Stand)>, Rig)> {
         "away" => one(woman, Stand { yaw: degrees(180.0), ..PASSPORT }),
         "profile" => one(woman, Stand { x: 260.0, yaw: degrees(90.0), ..PASSPORT }),
         "tilted" => one(woman, Stand { roll: degrees(18.0), ..PASSPORT }),
-        "small" => one(woman, Stand { x: 318.0, y: 262.0, scale: 18.0 / 95.0, ..PASSPORT }),
+        "small" => one(woman, Stand { x: 318.0, y: 505.0, scale: 18.0 / 95.0, ..PASSPORT }),
         "open" => one(Person { open: 1.0, ..woman }, PASSPORT),
         "man" => one(Person::man(), PASSPORT),
         "sidelight" => (vec![(woman, PASSPORT)], Rig::side()),
@@ -93,7 +93,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (person, stand) in figures {
         let head = head::Head::new(person);
         let strands = hair::grow(&head);
-        let mass = mass::Mass::of(&strands);
+        let mass = mass::Mass::of(&strands, &head.skull);
         figure::Figure::new(&head, &mass, stand, rig).expose(&mut canvas);
         strand::expose(&strands, &mass, &stand, &rig, &mut canvas);
     }

@@ -24,8 +24,10 @@ pub fn skin(p: V, wide: f32) -> f32 {
 /// Shoulders and chest without what only bare skin shows.
 fn torso(f: V, wide: f32) -> f32 {
     let slope = limb(f, V(44.0, 216.0, -58.0), V(240.0, 306.0, -58.0), 40.0 * wide, 34.0);
-    let chest = ball(f, V(0.0, 430.0, -28.0), V(255.0, 205.0, 92.0));
-    let shoulder = ball(f, V(214.0 + 26.0 * wide, 356.0, -54.0), V(66.0, 100.0, 66.0));
+    // Below the widest place chest and arms go on as columns, out of the frame.
+    let chest = ball(V(f.0, f.1.min(430.0), f.2), V(0.0, 430.0, -28.0), V(240.0, 205.0, 92.0));
+    let arm = V(f.0 - 0.10 * (f.1 - 356.0).max(0.0), f.1.min(356.0), f.2);
+    let shoulder = ball(arm, V(214.0 + 26.0 * wide, 356.0, -54.0), V(66.0, 100.0, 66.0));
     join(join(slope, chest, 46.0), shoulder, 44.0)
 }
 

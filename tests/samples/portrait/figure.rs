@@ -111,7 +111,11 @@ impl<'a> Figure<'a> {
                 return Some((p, stuff));
             }
             // A ray that grazes an edge may creep: what it has all but touched counts.
-            last = (d < 0.6).then_some((p, stuff));
+            if d < 0.6 {
+                last = Some((p, stuff));
+            } else if d > 4.0 {
+                last = None;
+            }
             t += d * 0.72;
             if t > end {
                 return None;
@@ -124,7 +128,8 @@ impl<'a> Figure<'a> {
     fn lamp(&self, p: V, to: V, sharp: f32) -> f32 {
         let mut open = 1.0f32;
         let mut t = 2.0;
-        for _ in 0..22 {
+        let steps = if sharp > 10.0 { 70 } else { 22 };
+        for _ in 0..steps {
             let d = self.distance(p + to * t);
             open = open.min(0.5 + 0.5 * sharp * d / t);
             if open < 0.0 || t > 170.0 {
@@ -179,7 +184,7 @@ impl<'a> Figure<'a> {
         let sky = (0.55 + 0.45 * n.dot(up)) * (0.6 + 0.4 * n.dot(see).max(0.0));
         // What light skin throws back into a hollow is red.
         let warm = if stuff == Stuff::Skin || stuff == Stuff::Eye {
-            V(1.0, mix(0.72, 1.0, open), mix(0.62, 1.0, open))
+            V(1.0, mix(0.84, 1.0, open), mix(0.77, 1.0, open))
         } else {
             V::all(1.0)
         };
@@ -243,7 +248,7 @@ impl<'a> Figure<'a> {
 
 /// The part of a ray within the box that holds every figure.
 fn bounds(from: V, to: V) -> Option<(f32, f32)> {
-    let (low, high) = (V(-335.0, -165.0, -150.0), V(335.0, 640.0, 178.0));
+    let (low, high) = (V(-335.0, -165.0, -150.0), V(335.0, 900.0, 178.0));
     let mut span = (0.0f32, f32::MAX);
     for (f, d, a, b) in [(from.0, to.0, low.0, high.0), (from.1, to.1, low.1, high.1), (from.2, to.2, low.2, high.2)] {
         let d = if d.abs() < 1e-9 { 1e-9 } else { d };
@@ -271,7 +276,7 @@ fn gloss(n: V, see: V, to: V, rough: f32) -> f32 {
 /// Light that entered the skin leaves it a little further on, red light further than green and blue: a Gaussian per
 /// channel over the picture, that stops where the depth jumps or the skin ends.
 fn spread(samples: &[Sample], wide: usize, per_unit: f32) -> Vec<V> {
-    let sigma = V(4.2, 1.9, 1.1) * per_unit;
+    let sigma = V(3.4, 1.7, 1.0) * per_unit;
     let reach = (sigma.0 * 2.0).ceil() as i32;
     let kernel: Vec<V> = (0..=reach)
         .map(|i| {

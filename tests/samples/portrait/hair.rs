@@ -152,7 +152,10 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
     let mut direction = (comb + up * (0.22 + 0.2 * near_part)).unit();
     let mut p = at;
     let step = 4.5;
-    let tip = mix(148.0, 166.0, smooth(20.0, -60.0, at.2)) + 9.0 * dice.normal() * 0.6 + 5.0 * cloud(at * 0.09);
+    let tip = mix(148.0, 166.0, smooth(20.0, -60.0, at.2))
+        + 6.0 * dice.normal()
+        + 7.0 * cloud(at * 0.09)
+        + 9.0 * cloud(at * 0.25);
     let own = V(dice.normal(), dice.normal(), dice.normal());
     let phase = at * 0.035 + V::all(seed);
     let mut points = Vec::with_capacity(80);
@@ -181,7 +184,7 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
             + stray * 4.0 * smooth(10.0, 90.0, run) * smooth(130.0, 40.0, p.1);
         let edge = smooth(10.0, 40.0, p.2) * smooth(0.0, -40.0, p.1) * smooth(30.0, 4.0, p.0 * side - face.at(p.1));
         let from_part = (p.0 - parting(p.2)).hypot((-p.2 - 20.0).max(0.0)) + (p.1 + 130.0).max(0.0);
-        let cover = cover * mix(1.0, 0.3, edge) * mix(0.72, 1.0, smooth(0.0, 90.0, from_part)) + 1.0;
+        let cover = cover * mix(1.0, 0.3, edge) * mix(0.82, 1.0, smooth(0.0, 90.0, from_part)) + 1.0;
         let mut q = next;
         if far < cover {
             let push = (cover - far).min(step * 0.9);

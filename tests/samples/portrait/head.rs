@@ -188,13 +188,13 @@ impl Head {
     fn nose(&self, p: V, d: f32) -> f32 {
         let w = self.person.nose;
         let mut n = limb(p, V(0.0, -12.0, 131.5), V(0.0, 40.0, 150.0), 6.0, 7.6);
-        n = join(n, limb(p, V(4.0, 16.0, 127.0), V(9.0 * w, 50.0, 138.0), 8.0, 9.5), 9.0);
-        let mut nose = join(d, n, 13.0);
+        n = join(n, limb(p, V(4.0, 16.0, 127.0), V(9.0 * w, 50.0, 138.0), 8.0, 9.5), 14.0);
+        let mut nose = join(d, n, 19.0);
         let tip = ball(p, V(0.0, 50.0, 150.0), V(12.5 * w, 11.0, 12.5));
         let lobe = ball(p, V(4.5 * w, 51.0, 152.0), V(8.0, 8.5, 8.5));
         nose = join(nose, join(tip, lobe, 5.0), 9.0);
         let wing = ball(p, V(18.2 * w, 56.5, 139.0), V(8.3 * w, 9.6, 12.0));
-        nose = join(nose, wing, 4.5);
+        nose = join(nose, wing, 6.5);
         let pillar = limb(p, V(0.0, 61.0, 150.0), V(0.0, 68.5, 138.0), 4.2, 5.0);
         nose = join(nose, pillar, 5.0);
         let hole = ball(p, V(9.6 * w, 65.5, 146.0), V(5.2 * w, 5.2, 9.0));

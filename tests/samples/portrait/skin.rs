@@ -18,7 +18,7 @@ pub fn moles(seed: u64) -> Vec<(f32, f32, f32, f32)> {
         .map(|i| {
             let big = i < 3;
             let r = if big { dice.between(0.9, 1.3) } else { dice.between(0.45, 0.8) };
-            let depth = if big { 0.45 } else { dice.between(0.06, 0.26) };
+            let depth = if big { 0.45 } else { dice.between(0.10, 0.40) };
             // Most are freckles where the sun falls: over nose and cheeks.
             if i % 3 == 0 {
                 (dice.between(-85.0, 85.0), dice.between(-70.0, 150.0), r, depth)
@@ -61,7 +61,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     let lid = lid * smooth(20.0, 28.0, x) * smooth(80.0, 68.0, x);
     c = c.by(V::all(1.0).lerp(V(0.93, 0.87, 0.86), lid));
     let hollow = front * spot((l.lid_lower.below(x, y) - 9.0) / 6.0) * smooth(24.0, 32.0, x) * smooth(66.0, 48.0, x);
-    c = c.by(V::all(1.0).lerp(V(0.90, 0.86, 0.89), hollow));
+    c = c.by(V::all(1.0).lerp(V(0.94, 0.91, 0.94), hollow));
     // The groove of the lid keeps a darker line, and the lashes' roots darken the margin.
     let in_eye = smooth(24.0, 27.0, x) * smooth(71.0, 67.0, x) * front;
     let groove = spot(l.crease.below(x, y) / 1.3) * smooth(28.0, 34.0, x) * smooth(74.0, 66.0, x) * front;
@@ -95,7 +95,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     gloss *= 1.0 - 0.6 * lid.max(hollow);
 
     // Blotches, pores, freckles.
-    c = c * (1.0 + 0.06 * patches + 0.06 * fine + 0.05 * grain(place * 0.9));
+    c = c * (1.0 + 0.06 * patches + 0.09 * fine + 0.06 * grain(place * 0.9));
     for (mx, my, r, depth) in moles {
         let d = ((q.0 - mx) / r).hypot((q.1 - my) / r);
         if d < 3.0 {
@@ -103,7 +103,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
         }
     }
 
-    let lips = if who.open > 0.0 || (x < 42.0 && y > 80.0 && y < 126.0) { l.on_lips(x, y, 1.1) * front } else { 0.0 };
+    let lips = if who.open > 0.0 || (x < 42.0 && y > 80.0 && y < 126.0) { l.on_lips(x, y, 1.7) * front } else { 0.0 };
     if lips > 0.0 {
         let lines = 1.0 + 0.09 * grain(V(q.0 * 0.7, q.1 * 0.12, 3.0)) + 0.05 * fine;
         let seam = spot(l.lip_line.below(x, y) / 1.5);

@@ -102,7 +102,7 @@ fn lit(strand: &Strand, mass: &Mass, stand: &Stand, rig: &Rig, per_unit: f32) ->
             let colour = if strand.mass {
                 let mut sum = V::ZERO;
                 for (to, power) in [(key, rig.key_power), (fill, rig.fill_power)] {
-                    let seen = mass.through(p, to, 0.16, 12);
+                    let seen = mass.through(p, to, 0.16, 12) * mass.past_skull(p, to);
                     sum = sum + one(along, to, see, strand.colour) * (power * seen);
                 }
                 let open = mass.through(p, (up + see * 1.3).unit(), 0.12, 10);
