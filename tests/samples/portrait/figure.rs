@@ -1,0 +1,318 @@
+//! One figure exposed on the canvas: rays to its surface, light on that, light spread under the skin.
+
+use rayon::prelude::*;
+
+use crate::body;
+use crate::eye;
+use crate::head::Head;
+use crate::mass::Mass;
+use crate::noise::{cloud, grain};
+use crate::person::Person;
+use crate::skin::{self, Surface};
+use crate::vector::{V, join, mix, smooth};
+use crate::view::{Canvas, Rig, Stand};
+
+#[derive(Clone, Copy, PartialEq)]
+enum Stuff {
+    Nothing,
+    Skin,
+    Eye,
+    Shirt,
+    Teeth,
+    Tongue,
+}
+
+/// What one ray met.
+#[derive(Clone, Copy)]
+struct Sample {
+    stuff: Stuff,
+    place: V,
+    near: f32,
+    /// Light that arrives, and light thrown back by the gloss.
+    light: V,
+    shine: V,
+    albedo: V,
+}
+
+const NONE: Sample =
+    Sample { stuff: Stuff::Nothing, place: V::ZERO, near: f32::MIN, light: V::ZERO, shine: V::ZERO, albedo: V::ZERO };
+
+/// Canvas samples to one ray, each way.
+const COARSE: usize = 2;
+
+pub struct Figure<'a> {
+    pub head: &'a Head,
+    pub mass: &'a Mass,
+    pub stand: Stand,
+    pub rig: Rig,
+    moles: Vec<(f32, f32, f32, f32)>,
+}
+
+impl<'a> Figure<'a> {
+    pub fn new(head: &'a Head, mass: &'a Mass, stand: Stand, rig: Rig) -> Figure<'a> {
+        Figure { head, mass, stand, rig, moles: skin::moles(head.person.seed) }
+    }
+
+    fn person(&self) -> &Person {
+        &self.head.person
+    }
+
+    fn skin(&self, p: V) -> f32 {
+        if p.1 < 30.0 {
+            return self.head.distance(p);
+        }
+        if p.1 > 235.0 {
+            return body::skin(p, self.person().neck);
+        }
+        join(self.head.distance(p), body::skin(p, self.person().neck), 9.0)
+    }
+
+    fn nearest(&self, p: V) -> (f32, Stuff) {
+        let bare = self.skin(p);
+        let mut best = (bare, Stuff::Skin);
+        let mut offer = |d: f32, stuff: Stuff| {
+            if d < best.0 {
+                best = (d, stuff);
+            }
+        };
+        if p.1 > 140.0 {
+            offer(body::shirt(p, self.person().neck), Stuff::Shirt);
+        }
+        if bare < 30.0 && p.2 > 60.0 && p.1 < 40.0 {
+            offer(self.head.eyes(p), Stuff::Eye);
+        }
+        if self.person().open > 0.0 && bare < 40.0 && p.2 > 40.0 {
+            offer(self.head.teeth(p), Stuff::Teeth);
+            offer(self.head.tongue(p), Stuff::Tongue);
+        }
+        best
+    }
+
+    fn distance(&self, p: V) -> f32 {
+        self.nearest(p).0
+    }
+
+    /// The direction away from the surface, by four samples at the corners of a tetrahedron.
+    fn outward(&self, p: V, e: f32) -> V {
+        let mut n = V::ZERO;
+        for k in [V(1.0, -1.0, -1.0), V(-1.0, -1.0, 1.0), V(-1.0, 1.0, -1.0), V(1.0, 1.0, 1.0)] {
+            n = n + k * self.distance(p + k * e);
+        }
+        n.unit()
+    }
+
+    fn march(&self, from: V, to: V) -> Option<(V, Stuff)> {
+        let (mut t, end) = bounds(from, to)?;
+        let mut last = None;
+        for _ in 0..160 {
+            let p = from + to * t;
+            let (d, stuff) = self.nearest(p);
+            if d.abs() < 0.04 {
+                return Some((p, stuff));
+            }
+            // A ray that grazes an edge may creep: what it has all but touched counts.
+            if d < 0.6 {
+                last = Some((p, stuff));
+            } else if d > 4.0 {
+                last = None;
+            }
+            t += d * 0.72;
+            if t > end {
+                return None;
+            }
+        }
+        last
+    }
+
+    /// The part of a large lamp that is seen from `p` (Quilez's estimate: the narrowest passage, as an angle).
+    fn lamp(&self, p: V, to: V, sharp: f32) -> f32 {
+        let mut open = 1.0f32;
+        let mut t = 2.0;
+        let steps = if sharp > 10.0 { 70 } else { 22 };
+        for _ in 0..steps {
+            let d = self.distance(p + to * t);
+            open = open.min(0.5 + 0.5 * sharp * d / t);
+            if open < 0.0 || t > 170.0 {
+                break;
+            }
+            t += d.clamp(1.5, 24.0);
+        }
+        let open = open.max(0.0);
+        open * open * (3.0 - 2.0 * open)
+    }
+
+    /// How open the surroundings are above a surface.
+    fn sky(&self, p: V, n: V) -> f32 {
+        let mut shut = 0.0;
+        for (h, w) in [(1.5, 0.20), (4.0, 0.10), (9.0, 0.055), (19.0, 0.026), (38.0, 0.011)] {
+            shut += (h - self.distance(p + n * h)).max(0.0) * w;
+        }
+        (1.0 - shut).clamp(0.06, 1.0)
+    }
+
+    fn shade(&self, place: V, stuff: Stuff, eye: V) -> Sample {
+        let see = (eye - place).unit();
+        let smooth_n = self.outward(place, if stuff == Stuff::Skin { 0.35 } else { 0.5 });
+        let mut n = smooth_n;
+        let (surface, wrap) = match stuff {
+            Stuff::Skin => {
+                n = (n + skin::relief(place, 0.075)).unit();
+                (skin::at(self.head, &self.moles, place), 0.22)
+            }
+            Stuff::Eye => {
+                let (surface, facing) = eye::at(self.head, place);
+                n = facing;
+                (surface, 0.25)
+            }
+            Stuff::Shirt => {
+                let weave = 1.0 + 0.05 * grain(place * 1.3) + 0.05 * cloud(place * 0.4);
+                (Surface { albedo: self.person().shirt * weave, rough: 0.8, gloss: 0.25 }, 0.1)
+            }
+            Stuff::Teeth => (Surface { albedo: V(0.62, 0.57, 0.46), rough: 0.25, gloss: 1.0 }, 0.2),
+            _ => (Surface { albedo: V(0.38, 0.12, 0.11), rough: 0.35, gloss: 0.9 }, 0.2),
+        };
+        let rig = &self.rig;
+        let key = self.stand.turned(rig.key);
+        let fill = self.stand.turned(rig.fill);
+        let up = self.stand.turned(V(0.0, -1.0, 0.0));
+        let seen = self.lamp(place + smooth_n * 0.6, key, rig.sharp) * self.mass.through(place, key, 0.30, 14);
+        let open = self.sky(place, smooth_n);
+        let shut_in = self.mass.through(place, (smooth_n + see).unit(), 0.10, 8);
+        let ambient = open * (0.35 + 0.65 * shut_in);
+
+        let facing = |l: V| ((n.dot(l) + wrap) / (1.0 + wrap)).max(0.0);
+        let sky = (0.55 + 0.45 * n.dot(up)) * (0.6 + 0.4 * n.dot(see).max(0.0));
+        // What light skin throws back into a hollow is red.
+        let warm = if stuff == Stuff::Skin || stuff == Stuff::Eye {
+            V(1.0, mix(0.84, 1.0, open), mix(0.77, 1.0, open))
+        } else {
+            V::all(1.0)
+        };
+        let light = V(1.0, 0.985, 0.96) * (rig.key_power * facing(key) * seen)
+            + V(0.94, 0.97, 1.0) * (rig.fill_power * facing(fill) * ambient)
+            + warm.by(V(0.96, 0.99, 1.0)) * (rig.sky * sky * ambient);
+
+        let mut shine = V::ZERO;
+        for (to, power, seen) in [(key, rig.key_power, seen), (fill, rig.fill_power, ambient)] {
+            shine = shine + V::all(gloss(n, see, to, surface.rough) * power * seen * surface.gloss);
+        }
+        // At grazing angles the bright room shows on everything.
+        let edge = (1.0 - n.dot(see).max(0.0)).powi(5);
+        shine = shine + V::all(0.16 * edge * rig.sky * ambient * surface.gloss);
+        if stuff == Stuff::Eye {
+            shine = shine * 0.12 + self.window(n, see, key) * (0.55 + 0.45 * seen);
+        }
+        let shine =
+            if stuff == Stuff::Eye { shine } else { V::all(shine.0.min(0.30) * smooth(0.02, 0.22, smooth_n.dot(see))) };
+        Sample { stuff, place, near: self.stand.nearness(place), light, shine, albedo: surface.albedo }
+    }
+
+    /// The lamp itself, mirrored in the cornea as a rounded square.
+    fn window(&self, n: V, see: V, key: V) -> V {
+        let r = n * (2.0 * n.dot(see)) - see;
+        let across = V(key.2, 0.0, -key.0).unit();
+        let rise = V(0.0, 1.0, 0.0) - key * key.1;
+        let (a, b) = (r.dot(across) / 0.20, r.dot(rise.unit()) / 0.23);
+        let inside = (a.powi(4) + b.powi(4)).sqrt().sqrt();
+        V(1.0, 1.0, 0.98) * (0.95 * smooth(1.25, 0.75, inside) * smooth(0.0, 0.3, r.dot(key)))
+    }
+
+    /// Exposes the figure's surfaces; its hairs come after (`strand::expose`).
+    pub fn expose(&self, canvas: &mut Canvas) {
+        let wide = canvas.wide() / COARSE;
+        let per_unit = canvas.per_unit() / COARSE as f32;
+        let mut samples = vec![NONE; wide * wide];
+        samples.par_chunks_mut(wide).enumerate().for_each(|(row, line)| {
+            for (column, sample) in line.iter_mut().enumerate() {
+                let (from, to) = self.stand.ray((column as f32 + 0.5) / per_unit, (row as f32 + 0.5) / per_unit);
+                if let Some((place, stuff)) = self.march(from, to) {
+                    *sample = self.shade(place, stuff, from);
+                }
+            }
+        });
+        let light = spread(&samples, wide, per_unit * self.stand.scale);
+        let full = canvas.wide();
+        for row in 0..full {
+            for column in 0..full {
+                let at = row / COARSE * wide + column / COARSE;
+                let s = &samples[at];
+                let to = row * full + column;
+                if s.stuff != Stuff::Nothing && s.near > canvas.near[to] {
+                    canvas.near[to] = s.near;
+                    canvas.colour[to] = s.albedo.by(light[at]) + s.shine;
+                }
+            }
+        }
+    }
+}
+
+/// The part of a ray within the box that holds every figure.
+fn bounds(from: V, to: V) -> Option<(f32, f32)> {
+    let (low, high) = (V(-335.0, -165.0, -150.0), V(335.0, 900.0, 178.0));
+    let mut span = (0.0f32, f32::MAX);
+    for (f, d, a, b) in [(from.0, to.0, low.0, high.0), (from.1, to.1, low.1, high.1), (from.2, to.2, low.2, high.2)] {
+        let d = if d.abs() < 1e-9 { 1e-9 } else { d };
+        let (a, b) = ((a - f) / d, (b - f) / d);
+        span = (span.0.max(a.min(b)), span.1.min(a.max(b)));
+    }
+    (span.0 < span.1).then_some(span)
+}
+
+/// Gloss of a rough surface (GGX with Schlick's Fresnel term, 0.028 for skin and water films).
+fn gloss(n: V, see: V, to: V, rough: f32) -> f32 {
+    let h = (see + to).unit();
+    let (nl, nv, nh) = (n.dot(to), n.dot(see).max(0.05), n.dot(h).max(0.0));
+    if nl <= 0.0 {
+        return 0.0;
+    }
+    let a2 = rough.powi(4);
+    let d = a2 / (std::f32::consts::PI * (nh * nh * (a2 - 1.0) + 1.0).powi(2));
+    let k = rough * rough * 0.5;
+    let g = 1.0 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
+    let fresnel = 0.028 + 0.972 * (1.0 - see.dot(h).max(0.0)).powi(5);
+    d * g * fresnel * 0.25 * nl * std::f32::consts::PI
+}
+
+/// Light that entered the skin leaves it a little further on, red light further than green and blue: a Gaussian per
+/// channel over the picture, that stops where the depth jumps or the skin ends.
+fn spread(samples: &[Sample], wide: usize, per_unit: f32) -> Vec<V> {
+    let sigma = V(3.4, 1.7, 1.0) * per_unit;
+    let reach = (sigma.0 * 2.0).ceil() as i32;
+    let kernel: Vec<V> = (0..=reach)
+        .map(|i| {
+            let g = |s: f32| (-0.5 * (i as f32 / s.max(0.2)).powi(2)).exp();
+            V(g(sigma.0), g(sigma.1), g(sigma.2))
+        })
+        .collect();
+    let pass = |light: &[V], down: bool| -> Vec<V> {
+        (0..samples.len())
+            .into_par_iter()
+            .map(|at| {
+                let here = &samples[at];
+                if here.stuff != Stuff::Skin {
+                    return light[at];
+                }
+                let (row, column) = ((at / wide) as i32, (at % wide) as i32);
+                let (mut sum, mut weight) = (V::ZERO, V::ZERO);
+                for i in -reach..=reach {
+                    let (r, c) = if down { (row + i, column) } else { (row, column + i) };
+                    if r < 0 || c < 0 || r >= wide as i32 || c >= wide as i32 {
+                        continue;
+                    }
+                    let to = r as usize * wide + c as usize;
+                    let there = &samples[to];
+                    if there.stuff != Stuff::Skin || (there.place - here.place).len() > 16.0 {
+                        continue;
+                    }
+                    let k = kernel[i.unsigned_abs() as usize];
+                    sum = sum + light[to].by(k);
+                    weight = weight + k;
+                }
+                V(sum.0 / weight.0, sum.1 / weight.1, sum.2 / weight.2)
+            })
+            .collect()
+    };
+    let raw: Vec<V> = samples.iter().map(|s| s.light).collect();
+    let soft = pass(&pass(&raw, false), true);
+    raw.iter().zip(soft).map(|(a, b)| a.lerp(b, 0.7)).collect()
+}

@@ -1,0 +1,85 @@
+//! From light to a picture: samples gathered to pixels, a photograph's tone and grain, and the PNG.
+
+use std::io;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::noise::fraction;
+use crate::vector::{V, mix};
+use crate::view::Canvas;
+
+/// Width of the lens's blur, in pixels.
+const BLUR: f32 = 0.52;
+
+/// Deviation of the sensor's noise, in 1/255.
+const NOISE: f32 = 1.3;
+
+/// sRGB bytes, row by row from the top, three to a pixel.
+pub fn develop(canvas: &Canvas, seed: u64) -> Vec<u8> {
+    let (side, fine, wide) = (canvas.side, Canvas::FINE, canvas.wide());
+    let sigma = BLUR * fine as f32;
+    let reach = (sigma * 2.6).ceil() as i32;
+    let kernel: Vec<f32> = (-reach..reach).map(|i| (-0.5 * ((i as f32 + 0.5) / sigma).powi(2)).exp()).collect();
+    let total: f32 = kernel.iter().sum();
+    let gather = |from: &dyn Fn(usize) -> V, n: usize, centre: usize| {
+        let mut sum = V::ZERO;
+        for (k, w) in kernel.iter().enumerate() {
+            let at = (centre as i32 + fine as i32 / 2 + k as i32 - reach).clamp(0, n as i32 - 1);
+            // Lamps in the eyes are brighter than film: they may not bleed.
+            let c = from(at as usize);
+            sum = sum + V(c.0.min(1.6), c.1.min(1.6), c.2.min(1.6)) * (w / total);
+        }
+        sum
+    };
+    let across: Vec<V> = (0..wide)
+        .into_par_iter()
+        .flat_map_iter(|row| {
+            (0..side).map(move |x| gather(&|c| canvas.colour[row * wide + c], wide, x * fine)).collect::<Vec<_>>()
+        })
+        .collect();
+    (0..side)
+        .into_par_iter()
+        .flat_map_iter(|y| {
+            (0..side)
+                .flat_map(|x| {
+                    let c = gather(&|r| across[r * side + x], wide, y * fine);
+                    let n = noise(x, y, seed);
+                    let own = |k: u64| n * 0.8 + 0.5 * noise(x, y, seed ^ (k + 1) << 40);
+                    [tone(c.0, own(0)), tone(c.1, own(1)), tone(c.2, own(2))]
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// A number of deviation about one for a pixel.
+fn noise(x: usize, y: usize, seed: u64) -> f32 {
+    let n = seed.wrapping_mul(0x9e37) ^ ((y as u64) << 20 | x as u64) << 2;
+    (fraction(n) + fraction(n + 1) + fraction(n + 2) - 1.5) * 2.0
+}
+
+/// Linear light to an sRGB byte, through a gentle S with a soft shoulder.
+fn tone(light: f32, noise: f32) -> u8 {
+    let light = light.max(0.0);
+    let light = if light > 0.6 { 0.6 + 0.4 * (1.0 - (-(light - 0.6) / 0.4).exp()) } else { light };
+    let s = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
+    let s = mix(s, s * s * (3.0 - 2.0 * s), 0.16);
+    // Noise is strongest in the middle tones once the eye's curve is applied.
+    let s = s * 255.0 + noise * NOISE * (0.55 + s * (1.0 - s) * 1.8);
+    (s + 0.5).clamp(0.0, 255.0) as u8
+}
+
+/// Writes sRGB bytes as a PNG without any metadata, as small as the encoder can.
+pub fn write(path: &Path, side: usize, pixels: &[u8]) -> io::Result<()> {
+    let file = io::BufWriter::new(std::fs::File::create(path)?);
+    let mut encoder = png::Encoder::new(file, side as u32, side as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_filter(png::Filter::Adaptive);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(())
+}
