@@ -97,3 +97,59 @@ fn trust_ears_as_far_as_seen(face: &mut Face) {
         }
     }
 }
+
+/// Half the width of the photo's smallest face whose points can be trusted, in pixels between the pupils.
+const SMALL: f64 = 50.0;
+
+/// The photo check: what breaks the assumptions of the method (thesis sec. 1.3.2).
+fn warnings(photo: &Photo, found: &Found, measured: &Measured) -> Vec<Warning> {
+    let mut out = Vec::new();
+    let mut warn = |when: bool, what: String, help: &'static str| {
+        if when {
+            out.push(Warning { what, help });
+        }
+    };
+    let points = super::Points(found.points.map(|p| p.at));
+    let units = Units::of(&points);
+    let fit = &measured.fitness;
+    warn(
+        units.eye_separation < SMALL,
+        format!("the face is small: {:.0} pixels between the pupils", units.eye_separation),
+        "take the photo nearer, or do not scale it down",
+    );
+    warn(found.roll.abs() > 10.0, format!("the head is tilted by {:.0}°", found.roll.abs()), "hold the head upright");
+    for doubt in &found.doubts {
+        warn(true, doubt.to_string(), doubt.help());
+    }
+    let parted = points[FeaturePoint::P2_2].distance(points[FeaturePoint::P2_3]);
+    warn(
+        parted > 0.12 * units.mouth_width,
+        "the mouth is open".into(),
+        "close it: the cartoon's own mouth opens from a closed one",
+    );
+    let side = if fit.side_light > 0.0 { "left" } else { "right" };
+    warn(
+        fit.side_light.abs() > 0.10,
+        format!("the light comes from the side: the {side} half of the face lies in the shade"),
+        "stand facing a window",
+    );
+    warn(
+        fit.hair_contrast.is_some_and(|c| c < 0.06),
+        "hair and background have nearly one colour".into(),
+        "stand before a wall of another colour, or correct the points of the hair",
+    );
+    warn(
+        fit.plain < 0.7,
+        "the background is busy".into(),
+        "stand before a plain wall, or look at the hair's points with care",
+    );
+    warn(
+        fit.glasses > 0.5,
+        "the face seems to wear glasses".into(),
+        "take them off for the photo; the style can put them on again",
+    );
+    warn(fit.highlights < 0.5, "the photo is dark".into(), "take it in better light");
+    warn(fit.burnt > 0.03, "the photo is too light: parts of the skin are white".into(), "take it in softer light");
+    let _ = photo;
+    out
+}
