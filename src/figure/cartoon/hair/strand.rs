@@ -143,7 +143,8 @@ impl<'a> Brushes<'a> {
         for _ in 0..3 {
             let before = line.clone();
             for i in 1..line.len() - 1 {
-                line[i] = ((before[i - 1].to_vec2() + before[i].to_vec2() * 2.0 + before[i + 1].to_vec2()) / 4.0).to_point();
+                line[i] =
+                    ((before[i - 1].to_vec2() + before[i].to_vec2() * 2.0 + before[i + 1].to_vec2()) / 4.0).to_point();
             }
         }
         self.path.extend(brush_in_steps(&line, self.width, profile, 13));
