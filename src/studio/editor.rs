@@ -2,7 +2,7 @@
 
 use super::Lane;
 use super::window::Window;
-use crate::figure::LineFigure;
+use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::project::{Clip, Lesson};
 use crate::timeline::{Key, KeyValue, MouthKey, Origin, Timeline, Track};
@@ -18,9 +18,7 @@ pub struct Editor {
     /// The clip's score as it is now.
     pub timeline: Timeline,
     /// Who is drawn.
-    pub figure: LineFigure,
-    /// Counts how often the figure has changed while the clip is open.
-    pub figure_version: u64,
+    pub figure: Figure,
     /// The instant that is looked at, in seconds.
     pub cursor: f64,
     /// What of the clip is on the screen.
@@ -71,14 +69,13 @@ impl LaneKey {
 impl Editor {
     /// Opens a clip at its start.
     #[must_use]
-    pub fn new(lesson: &Lesson, clip: usize, figure: LineFigure) -> Self {
+    pub fn new(lesson: &Lesson, clip: usize, figure: Figure) -> Self {
         let timeline = lesson.timeline(clip, None);
         let mut editor = Self {
             clip,
             window: Window { from: 0.0, span: timeline.duration().min(FIRST_SIGHT) },
             timeline,
             figure,
-            figure_version: 0,
             cursor: 0.0,
             lane: Lane::Syllables,
             syllable: None,

@@ -39,8 +39,6 @@ pub struct FaceDesk {
     pub mouths: MouthPreset,
     /// What the face looks like drawn; none without points.
     pub figure: Option<Figure>,
-    /// Counts how often the figure or the photo has changed, so that pictures of them know.
-    pub version: u64,
     /// Places given by hand where nothing was found: left eye, right eye, mouth, chin so far, and the cross.
     pub placing: Option<Placing>,
     /// What the search had to say.
@@ -84,7 +82,6 @@ impl FaceDesk {
             mouth: None,
             mouths,
             figure,
-            version: 0,
             placing: None,
             remarks: Vec::new(),
         }

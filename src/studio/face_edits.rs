@@ -88,7 +88,6 @@ fn look(state: &mut State, action: Action) {
             let count = desk.stages.len() as i32 + 1;
             let at = desk.stage.map_or(0, |s| s as i32 + 1);
             desk.stage = ((at + by).rem_euclid(count) as usize).checked_sub(1);
-            desk.version += 1;
         }
         _ => {}
     }
@@ -127,7 +126,6 @@ pub(super) fn show(state: &mut State) {
         && let Some(face) = lesson.faces.get(desk.face)
     {
         desk.figure = lesson.cartoon_of(face).ok();
-        desk.version += 1;
         if face.face.as_ref().is_some_and(|f| f.placed(desk.point).is_none()) {
             desk.point = FeaturePoint::P3_6;
         }
@@ -136,7 +134,6 @@ pub(super) fn show(state: &mut State) {
         && let Ok(figure) = lesson.figure_of(&lesson.clips[editor.clip].entry)
     {
         editor.figure = figure;
-        editor.figure_version += 1;
     }
 }
 
@@ -260,7 +257,6 @@ fn anchors(state: &mut State) {
     };
     desk.zoom = 0;
     desk.stage = None;
-    desk.version += 1;
 }
 
 /// Takes the place of the cross; with the fourth the search begins.
@@ -280,7 +276,6 @@ fn place(state: &mut State) -> Option<Job> {
     let job = find_again(state, Some(Anchors { left_eye, right_eye, mouth, chin }));
     if let Some(desk) = &mut state.face {
         desk.placing = None;
-        desk.version += 1;
     }
     job
 }

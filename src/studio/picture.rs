@@ -7,7 +7,7 @@ use ratatui::style::Style;
 use super::look::Colours;
 use super::photo_picture;
 use crate::drawing::Drawing;
-use crate::figure::LineFigure;
+use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::render::{Painter, Picture};
 
@@ -32,15 +32,14 @@ pub struct FacePicture {
     shown: Option<Shown>,
     size: Size,
     /// The figure as it is painted: the face alone, bold enough for so few pixels.
-    close: Option<LineFigure>,
+    close: Option<Figure>,
     cells: Vec<Cell>,
 }
 
-/// What a picture shows. A title and a version tell one figure or drawing from another.
+/// What a picture shows. The key tells one figure or drawing from another.
 #[derive(Debug, Clone, PartialEq)]
 struct Shown {
-    title: String,
-    version: u64,
+    key: u64,
     pose: Option<Pose>,
     size: Size,
     colours: Colours,
@@ -56,7 +55,7 @@ enum Cell {
 impl FacePicture {
     /// How many cells a figure takes of an area: as high as it is, as wide as the figure then is.
     #[must_use]
-    pub fn size_in(figure: &LineFigure, area: Size) -> Size {
+    pub fn size_in(figure: &Figure, area: Size) -> Size {
         let view = figure.face_view();
         let aspect = (view.width() / view.height().max(1e-6)).clamp(0.1, 10.0);
         // A cell is twice as high as it is wide.
@@ -66,13 +65,13 @@ impl FacePicture {
     }
 
     /// Paints the figure, unless it is painted so already.
-    pub fn show(&mut self, figure: &LineFigure, version: u64, pose: &Pose, area: Rect, colours: Colours) {
+    pub fn show(&mut self, figure: &Figure, pose: &Pose, area: Rect, colours: Colours) {
         let size = Self::size_in(figure, area.as_size());
-        let wanted = Shown { title: figure.title().to_owned(), version, pose: Some(*pose), size, colours };
+        let wanted = Shown { key: figure.key(), pose: Some(*pose), size, colours };
         if self.shown.as_ref() == Some(&wanted) {
             return;
         }
-        let other = |s: &Shown| s.title != wanted.title || s.version != version || s.colours != colours;
+        let other = |s: &Shown| s.key != wanted.key || s.colours != colours;
         if self.size != size || self.shown.as_ref().is_none_or(other) {
             let (wide, high) = (u32::from(size.width) * FINER, u32::from(size.height) * 2 * FINER);
             self.painter = Painter::new(wide, high).ok();
@@ -91,9 +90,9 @@ impl FacePicture {
     }
 
     /// Paints a drawing as large as an area allows, unless it is painted so already.
-    pub fn show_drawing(&mut self, drawing: &Drawing, version: u64, area: Rect, colours: Colours) {
+    pub fn show_drawing(&mut self, drawing: &Drawing, area: Rect, colours: Colours) {
         let size = photo_picture::size_in(drawing.view, area.as_size());
-        let wanted = Shown { title: drawing.title.clone(), version, pose: None, size, colours };
+        let wanted = Shown { key: drawing.fingerprint(), pose: None, size, colours };
         if self.shown.as_ref() == Some(&wanted) {
             return;
         }
@@ -187,13 +186,18 @@ fn mean(picture: &Picture, x: u32, y: u32, wide: u32, high: u32) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::LineFigure;
     use crate::pose::{Emotion, Ratios};
 
+    fn line() -> Figure {
+        LineFigure::built_in("line").unwrap().into()
+    }
+
     fn painted(pose: &Pose, colours: Colours) -> (FacePicture, Buffer) {
-        let figure = LineFigure::built_in("line").unwrap();
+        let figure = line();
         let area = Rect::new(0, 0, 28, 12);
         let mut picture = FacePicture::default();
-        picture.show(&figure, 0, pose, area, colours);
+        picture.show(&figure, pose, area, colours);
         let mut buffer = Buffer::empty(area);
         picture.put(&mut buffer, area);
         (picture, buffer)
@@ -212,13 +216,13 @@ mod tests {
         let (_, other) = painted(&Pose::of(Ratios::pure(Emotion::Surprised)), Colours::True);
         assert_ne!(first, other);
         neutral.painter = None;
-        neutral.show(&LineFigure::built_in("line").unwrap(), 0, &Pose::default(), Rect::new(0, 0, 28, 12), Colours::True);
+        neutral.show(&line(), &Pose::default(), Rect::new(0, 0, 28, 12), Colours::True);
         assert!(!neutral.cells.is_empty());
     }
 
     #[test]
     fn the_picture_has_the_figures_shape() {
-        let figure = LineFigure::built_in("line").unwrap();
+        let figure = line();
         let size = FacePicture::size_in(&figure, Size::new(80, 12));
         assert!((18..=26).contains(&size.width) && size.height == 12, "{size:?}");
         let narrow = FacePicture::size_in(&figure, Size::new(10, 40));

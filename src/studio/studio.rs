@@ -218,7 +218,6 @@ impl Studio {
                 self.under_way -= 1;
                 if let Some(desk) = self.desk_of(&root, face) {
                     desk.stages = stages;
-                    desk.version += 1;
                 }
             }
             Report::FaceFound { root, face, found } => {
@@ -272,15 +271,8 @@ impl Studio {
     pub fn draw(&mut self, frame: &mut Frame<'_>) {
         self.too_small = draw::has_no_room(frame.area());
         let layout = Layout::of(frame.area(), &self.state);
-        // What comes on the desk next may be another figure of the same name.
-        if self.state.editor.is_none() {
-            self.face = FacePicture::default();
-        }
-        if self.state.face.is_none() {
-            (self.cartoon, self.stage) = Default::default();
-        }
         if let (Some(layout), Some(editor)) = (&layout, &self.state.editor) {
-            self.face.show(&editor.figure, editor.figure_version, &editor.pose(), layout.face, self.state.colours);
+            self.face.show(&editor.figure, &editor.pose(), layout.face, self.state.colours);
         }
         self.paint_desk(frame.area());
         let pictures = Pictures { face: &self.face, cartoon: &self.cartoon, stage: &self.stage };
@@ -292,10 +284,10 @@ impl Studio {
         let Some(desk) = self.state.face.as_ref().filter(|_| !self.too_small) else { return };
         let layout = FaceLayout::of(area, desk);
         if let Some(figure) = &desk.figure {
-            self.cartoon.show(figure, desk.version, &desk.pose(), layout.cartoon, self.state.colours);
+            self.cartoon.show(figure, &desk.pose(), layout.cartoon, self.state.colours);
         }
         if let Some((_, drawing)) = desk.stage.and_then(|s| desk.stages.get(s)) {
-            self.stage.show_drawing(drawing, desk.version, layout.photo, self.state.colours);
+            self.stage.show_drawing(drawing, layout.photo, self.state.colours);
         }
     }
 

@@ -4,7 +4,7 @@ use super::head::HeadShape;
 use super::{Pen, at};
 use crate::drawing::Item;
 use crate::face::{FeaturePoint as P, Points};
-use crate::geometry::spline;
+use crate::geometry::{Vec2, spline};
 
 /// An ear is drawn at least this far out, or it looks cut off.
 const LEAST: f64 = 15.0;
@@ -12,10 +12,9 @@ const LEAST: f64 = 15.0;
 /// Both ears.
 pub(super) fn ears(pen: &Pen, points: &Points, head: &HeadShape) -> Vec<Item> {
     let mut items = Vec::new();
-    for (side, sign, name, [top, outer, lobe]) in [
-        (0, -1.0, "ear-left", [P::P10_2, P::P10_4, P::P10_6]),
-        (1, 1.0, "ear-right", [P::P10_1, P::P10_3, P::P10_5]),
-    ] {
+    for (side, sign, name, [top, outer, lobe]) in
+        [(0, -1.0, "ear-left", [P::P10_2, P::P10_4, P::P10_6]), (1, 1.0, "ear-right", [P::P10_1, P::P10_3, P::P10_5])]
+    {
         let (top, outer, lobe) = (points[top], points[outer], points[lobe]);
         let high = lobe.y - top.y;
         let base = head.ear_top(side).x;
@@ -23,7 +22,7 @@ pub(super) fn ears(pen: &Pen, points: &Points, head: &HeadShape) -> Vec<Item> {
         let p = |reach: f64, down: f64| at(base + sign * reach * out, top.y + down * high);
         let rim = [
             at(base - sign * 6.0, top.y + 8.0),
-            p(0.40, 0.0) - (0.0, 1.0).into(),
+            p(0.40, 0.0) - Vec2::new(0.0, 1.0),
             at(base + sign * (out - 1.2), top.y + 0.16 * high),
             at(base + sign * (out - 0.6), top.y + 0.40 * high),
             p(0.66, 0.70),

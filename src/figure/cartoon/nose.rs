@@ -16,12 +16,18 @@ pub(super) fn nose(pen: &Pen, points: &Points, units: &Units, style: NoseStyle) 
     match style {
         NoseStyle::Modelled => {
             for sign in [-1.0, 1.0] {
-                let wing = [p.at(sign, 0.78, -0.52), p.at(sign, 1.02, -0.12), p.low(sign, 0.98, -0.16), p.low(sign, 0.72, -0.02)];
+                let wing = [
+                    p.at(sign, 0.78, -0.52),
+                    p.at(sign, 1.02, -0.12),
+                    p.low(sign, 0.98, -0.16),
+                    p.low(sign, 0.72, -0.02),
+                ];
                 items.push(pen.line("nose-wing", &wing, 0.95, &[0.0, 0.9, 1.0, 0.1]));
                 let hole = [p.low(sign, 0.70, -0.05), p.low(sign, 0.46, -0.20), p.low(sign, 0.24, 0.02)];
                 items.push(Item::area("nostril", brush(&hole, 1.7 * pen.ink, &[0.1, 1.0, 0.15]), colours.ink));
             }
-            let base = [at(p.x - 0.26 * p.n, p.base + 1.0), at(p.x, p.base + 0.16 * p.n), at(p.x + 0.26 * p.n, p.base + 1.0)];
+            let base =
+                [at(p.x - 0.26 * p.n, p.base + 1.0), at(p.x, p.base + 0.16 * p.n), at(p.x + 0.26 * p.n, p.base + 1.0)];
             items.push(pen.line("nose-base", &base, 0.9, &[0.0, 1.0, 0.0]));
         }
         NoseStyle::Line => {
@@ -115,21 +121,4 @@ impl Shapes {
             Item::area("nose-under", spline(&under, true), colours.shade.faded(0.7)),
         ]
     }
-}
-
-/// Wrinkles on the bridge, as disgust makes them.
-pub(super) fn wrinkles(pen: &Pen, points: &Points, amount: f64) -> Vec<Item> {
-    let mut items = Vec::new();
-    if amount <= 0.0 {
-        return items;
-    }
-    let (x, base) = (points[P::P9_2].x.midpoint(points[P::P9_1].x), points[P::P9_15].y);
-    for sign in [-1.0, 1.0] {
-        for j in [0.0, 1.0] {
-            let wrinkle = [(4.0, 0.30), (8.0, 0.36), (10.0, 0.44)]
-                .map(|(out, down)| at(x + sign * (out + 3.0 * j), base * (down + 0.1 * j)));
-            items.push(pen.line("nose-wrinkle", &wrinkle, 0.8 * amount.min(1.5), &[0.0, 1.0, 0.0]));
-        }
-    }
-    items
 }

@@ -80,10 +80,9 @@ pub(super) fn folds(pen: &Pen, points: &Points, units: &Units, amount: f64) -> V
         let ink = brush(line, width * pen.ink * (0.6 + 0.4 * amount), &[0.0, 1.0, 0.7, 0.0]);
         items.push(Item::area("fold", ink, colour));
     };
-    for (sign, wing, corner, inner, outer, low) in [
-        (-1.0, P::P9_2, P::P8_4, P::P3_8, P::P3_12, P::P3_4),
-        (1.0, P::P9_1, P::P8_3, P::P3_11, P::P3_7, P::P3_3),
-    ] {
+    for (sign, wing, corner, inner, outer, low) in
+        [(-1.0, P::P9_2, P::P8_4, P::P3_8, P::P3_12, P::P3_4), (1.0, P::P9_1, P::P8_3, P::P3_11, P::P3_7, P::P3_3)]
+    {
         let (wing, corner) = (points[wing], points[corner]);
         let to = wing.lerp(corner, 0.62 + 0.2 * amount);
         let between = wing.lerp(to, 0.5) + Vec2::new(sign * 7.0, -3.0);

@@ -60,9 +60,7 @@ pub(super) fn curls(pen: &Pen, outlines: &[&[Point]], centre: Point, amount: f64
     let mut dice = Dice(7);
     let (mut dark, mut light) = (BezPath::new(), BezPath::new());
     let all = || outlines.iter().flat_map(|o| o.iter());
-    let reach = |f: fn(&Point) -> f64| {
-        (all().map(f).fold(f64::MAX, f64::min), all().map(f).fold(f64::MIN, f64::max))
-    };
+    let reach = |f: fn(&Point) -> f64| (all().map(f).fold(f64::MAX, f64::min), all().map(f).fold(f64::MIN, f64::max));
     let ((left, right), (top, bottom)) = (reach(|p| p.x), reach(|p| p.y));
     let (rows, columns) = (((bottom - top) / DOWN).max(0.0) as u32, ((right - left) / ACROSS).max(0.0) as u32);
     for row in 0..=rows.min(60) {
@@ -77,7 +75,8 @@ pub(super) fn curls(pen: &Pen, outlines: &[&[Point]], centre: Point, amount: f64
             }
             let towards = (p.y - centre.y).atan2(p.x - centre.x) + 1.4 * (turn - 0.5);
             let radius = 4.5 + 3.5 * size;
-            let ring: [Point; 5] = std::array::from_fn(|i| p + Vec2::from_angle(towards - 1.3 + 0.65 * i as f64) * radius);
+            let ring: [Point; 5] =
+                std::array::from_fn(|i| p + Vec2::from_angle(towards - 1.3 + 0.65 * i as f64) * radius);
             let lighter = !pen.ink_only && p.x < 10.0 && p.y < -60.0 && lit < 0.55;
             let (path, width) = if lighter { (&mut light, 1.9) } else { (&mut dark, 1.15) };
             path.extend(brush_in_steps(&ring, width * pen.ink, &[0.0, 1.0, 0.8, 0.0], 6));
