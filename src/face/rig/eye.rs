@@ -79,8 +79,8 @@ impl Socket {
         let wide = (open - 1.0).max(0.0);
         let radius = self.radius * e.iris;
         // Gaze: on the eyeball, so that the iris never leaves the lids.
-        let width = (self.outer.x - self.inner.x).abs();
-        let reach = Vec2::new(0.8 * (0.5 * width - 0.72 * radius).max(0.0), 0.32 * height);
+        let toward = if (gaze.x >= 0.0) == (self.side > 0.0) { self.outer } else { self.inner };
+        let reach = Vec2::new(0.8 * ((toward.x - self.centre.x).abs() - 0.72 * radius).max(0.0), 0.32 * height);
         let look = Vec2::new(soft(gaze.x * height, reach.x), soft((gaze.y + e.look_down) * height, reach.y));
         let iris = self.centre + Vec2::new(look.x, 0.02 * height + look.y);
         // Lids: by the emotion about the eyeball's middle, after the glance, and wider than at rest when startled.
