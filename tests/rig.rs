@@ -495,7 +495,7 @@ fn any_face(by: f64) -> impl Strategy<Value = Points> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(ProptestConfig::with_cases(1_000))]
 
     #[test]
     fn any_pose_of_any_face_is_finite_and_nothing_crosses(points in any_face(8.0), pose in any_pose(), cute: bool) {
