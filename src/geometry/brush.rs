@@ -61,26 +61,26 @@ pub fn brush_in_steps(line: &[Point], width: f64, profile: &[f64], steps: usize)
     path
 }
 
-/// A closed brush round `line`, of even width: a ring of two outlines that wind against each other.
+/// A closed brush round `line`, as wide at each of its points as `width` says for the outward direction there: two outlines that wind against each other.
 #[must_use]
-pub fn brush_ring(line: &[Point], width: f64) -> BezPath {
+pub fn brush_ring(line: &[Point], width: impl Fn(Vec2) -> f64) -> BezPath {
     let n = line.len();
     let mut path = BezPath::new();
     if n < 3 {
         return path;
     }
-    let side = |sign: f64| -> Vec<Point> {
-        (0..n)
-            .map(|i| {
-                let along = line[(i + 1) % n] - line[(i + n - 1) % n];
-                let normal = Vec2::new(-along.y, along.x) / along.hypot().max(1e-6);
-                line[i] + normal * (sign * width / 2.0)
-            })
-            .collect()
-    };
-    let mut inner = side(-1.0);
+    // Outward, whichever way the line runs round.
+    let turn: f64 = (0..n).map(|i| line[i].to_vec2().cross(line[(i + 1) % n].to_vec2())).sum::<f64>().signum();
+    let (mut outer, mut inner) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    for i in 0..n {
+        let along = line[(i + 1) % n] - line[(i + n - 1) % n];
+        let outward = Vec2::new(along.y, -along.x) * (turn / along.hypot().max(1e-6));
+        let half = width(outward) / 2.0;
+        outer.push(line[i] + outward * half);
+        inner.push(line[i] - outward * half);
+    }
     inner.reverse();
-    for ring in [side(1.0), inner] {
+    for ring in [outer, inner] {
         path.push(PathEl::MoveTo(ring[0]));
         spline_on(&mut path, &ring, true);
         path.push(PathEl::ClosePath);
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn a_ring_is_hollow() {
         let line: Vec<Point> = (0..40).map(|i| (Vec2::from_angle(f64::from(i) * 0.157) * 50.0).to_point()).collect();
-        let ring = brush_ring(&line, 4.0);
+        let ring = brush_ring(&line, |_| 4.0);
         assert!(ring.winding(Point::ZERO) == 0 && ring.winding(Point::new(50.0, 0.0)) != 0);
     }
 }

@@ -3,6 +3,7 @@
 //! y grows downward, so angles run clockwise as seen. It knows nothing of faces or colours.
 
 mod brush;
+mod polygon;
 mod ribbon;
 mod spline;
 
@@ -11,8 +12,9 @@ pub use kurbo::{
     Affine, BezPath, Circle, CubicBez, Ellipse, ParamCurve, ParamCurveDeriv, ParamCurveNearest, PathEl, Point, Rect,
     Shape, Vec2,
 };
+pub use polygon::{cut_corner, cut_corners, simplify};
 pub use ribbon::{Knot, Ribbon, outline};
-pub use spline::{equal_steps, spline};
+pub use spline::{equal_steps, flattened, spline};
 
 /// The cubic that leaves `a` with derivative `da` and reaches `b` with derivative `db` over a unit of parameter.
 #[must_use]

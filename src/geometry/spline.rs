@@ -68,6 +68,20 @@ pub(super) fn spline_points(points: &[Point], count: usize) -> Vec<Point> {
     line
 }
 
+/// A path as a line of straight pieces, 8 to a curve, whose starts and closings are not told apart.
+#[must_use]
+pub fn flattened(path: &BezPath) -> Vec<Point> {
+    let mut line = Vec::new();
+    for piece in path.segments() {
+        if line.last() != Some(&piece.start()) {
+            line.push(piece.start());
+        }
+        let steps = if matches!(piece, kurbo::PathSeg::Line(_)) { 1 } else { 8 };
+        line.extend((1..=steps).map(|k| piece.eval(f64::from(k) / f64::from(steps))));
+    }
+    line
+}
+
 /// `count` points at equal steps along a line of straight pieces, both ends among them; a closed line is walked round
 /// once and its start is not repeated. A line without length gives its first point `count` times, no line nothing.
 #[must_use]

@@ -2,6 +2,7 @@
 
 use super::{Backdrop, LineFigure, eye};
 use crate::drawing::{Colour, Drawing, Item, Layer};
+use crate::figure::describe;
 use crate::geometry::{BezPath, Knot, PathEl, Ribbon};
 use crate::pose::{Head, Pose};
 
@@ -86,14 +87,4 @@ fn closed(strokes: &[Ribbon]) -> BezPath {
     }
     path.close_path();
     path
-}
-
-/// What a pose shows, in a sentence.
-fn describe(pose: &Pose) -> String {
-    let (emotion, ratio) = pose.ratios.strongest();
-    let mood = if ratio >= 0.2 { format!("{emotion} {ratio:.2}") } else { "neutral".to_owned() };
-    match pose.shape {
-        Some(shape) => format!("A face: {mood}, mouth {shape}."),
-        None => format!("A face: {mood}."),
-    }
 }
