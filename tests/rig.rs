@@ -85,6 +85,9 @@ fn sound(neutral: &Neutral, face: &Deformed) -> Result<(), String> {
                 return Err(format!("lids cross at {t}: {upper} {lower}"));
             }
         }
+        if eye.crease.eval(0.5).y >= eye.upper.eval(0.5).y {
+            return Err("the crease lies under its lid".into());
+        }
         let corners = [eye.inner().x, eye.outer().x];
         let (left, right) = (corners[0].min(corners[1]), corners[0].max(corners[1]));
         if !(left < eye.iris.x && eye.iris.x < right && eye.radius > 0.0) {
@@ -432,6 +435,37 @@ fn every_measured_face_holds_in_every_emotion_and_shape() {
         }
     }
     println!("{held} faces held");
+}
+
+#[test]
+fn a_happy_face_that_says_mama_closes_its_lips_in_a_frame_for_every_m() {
+    use lianpu::timeline::{Key, KeyValue, Score, Sources, Spoken, Timeline};
+    let neutral = average();
+    let shapes = vec![(0.0, MouthShape::M), (0.464, MouthShape::A)];
+    let starts = [0.4, 0.62, 0.84];
+    let spoken = starts.map(|start| Spoken { start, end: start + 0.22, shapes: shapes.clone() });
+    for emotion in Emotion::ALL {
+        let mut score = Score::default();
+        score.keys.push(Key::new(0.0, KeyValue::Emotion(Ratios::pure(emotion))));
+        let (record, tracks, mouths) = (None, None, MouthPreset::Distinct);
+        let line = Timeline::build(&Sources {
+            duration: 1.6,
+            fps: 25.0,
+            spoken: &spoken,
+            record,
+            tracks,
+            score: &score,
+            mouths,
+        });
+        let opening = |t: f64| neutral.pose(&line.pose(t)).mouth.opening() / unit(&neutral);
+        let frames: Vec<f64> = (0..line.frames()).map(|k| line.time_of(k)).collect();
+        for start in starts {
+            let near = |reach: f64| frames.iter().filter(move |t| (*t - start).abs() <= reach).map(|t| opening(*t));
+            assert!(near(0.041).any(|o| o < 0.03), "{emotion} at {start}");
+            let after = frames.iter().filter(|t| (start + 0.1..start + 0.2).contains(*t)).map(|t| opening(*t));
+            assert!(after.fold(0.0, f64::max) > 0.5, "{emotion} opens after {start}");
+        }
+    }
 }
 
 #[test]
