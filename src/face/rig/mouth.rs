@@ -13,7 +13,7 @@ const CORNERS_SPEAKING: f64 = 0.6;
 const UPPER_SPEAKING: f64 = 0.45;
 const LOWER_SPEAKING: f64 = 0.0;
 /// How far *f* lifts the upper lip off the lower one to show the teeth that stand on it, in M, at least and at most.
-const BITE: (f64, f64) = (0.10, 0.24);
+const BITE: (f64, f64) = (0.12, 0.24);
 /// Where lips meet between the upper (0) and the lower edge (1).
 const MEET: f64 = 0.4;
 /// The narrowest and the widest mouth, in MW0.
@@ -76,6 +76,8 @@ pub struct Mouth {
 struct Moves {
     /// Inner edges down, before they close.
     inner: [f64; 2],
+    /// How much of the way between them is the emotion's.
+    felt: f64,
     /// Each corner outward, and down.
     out: f64,
     down: f64,
@@ -94,7 +96,6 @@ impl Lips {
         let meet = points[P::P2_2].y;
         let corners = [points[P::P8_4], points[P::P8_3]];
         let width = corners[1].x - corners[0].x;
-        let middle = corners[0].x.midpoint(corners[1].x);
         let thickness = [(meet - points[P::P8_1].y).max(LEAST[0]), (points[P::P8_2].y - meet).max(LEAST[1])];
         let top = points[P::P8_9].y.midpoint(points[P::P8_10].y);
         let dip = within(points[P::P8_1].y - top, 0.0, 0.5 * thickness[0]);
@@ -104,10 +105,17 @@ impl Lips {
         let jaw = points[P::P2_13].x - points[P::P2_14].x;
         let cheeks = [points[P::P2_14].x + 0.04 * jaw, points[P::P2_13].x - 0.04 * jaw];
         let lips = Self { corners, width, unit, meet, thickness, dip, peaks, nose, cheeks };
-        let rest =
-            Moves { inner: [0.0; 2], out: 0.0, down: 0.0, thick: [1.0; 2], closure: 0.0, bite: 0.0, tongue: 0.0 };
+        let rest = Moves {
+            inner: [0.0; 2],
+            felt: 0.0,
+            out: 0.0,
+            down: 0.0,
+            thick: [1.0; 2],
+            closure: 0.0,
+            bite: 0.0,
+            tongue: 0.0,
+        };
         lips.shaped(&rest, 0.0, 0.0).place(points);
-        points[P::P8_1].x = middle;
         lips
     }
 
@@ -116,10 +124,10 @@ impl Lips {
         let speech = sound(mouth);
         let spoken = speech.speaking.max(speech.closure);
         let unit = self.unit;
-        let upper = speech.upper * unit + e.upper * unit * lerp(1.0, UPPER_SPEAKING, spoken);
-        let lower = speech.lower * unit
-            + (speech.lower_lip + speech.lower_thinner - speech.thinner) * self.thickness[1]
-            + e.lower * unit * lerp(1.0, LOWER_SPEAKING, spoken);
+        let felt = [UPPER_SPEAKING, LOWER_SPEAKING].map(|left| unit * lerp(1.0, left, spoken));
+        let felt = [e.upper * felt[0], e.lower * felt[1]];
+        let lower_lip = (speech.lower_lip + speech.lower_thinner - speech.thinner) * self.thickness[1];
+        let said = [speech.upper * unit, speech.lower * unit + lower_lip];
         // Pursed lips gather: a rounded vowel has no room for the emotion's raised or hanging corners, and a mouth that
         // the emotion has narrowed already gives way less.
         let gathered = within(speech.corner_in / 0.22, 0.0, 1.0);
@@ -128,7 +136,8 @@ impl Lips {
         let already = within(1.0 + 2.0 * e.corner_out * kept, 0.4, 1.0).powi(2);
         let narrowing = speech.corner_in * self.width * if speech.corner_in > 0.0 { already } else { 1.0 };
         let moves = Moves {
-            inner: [upper, lower],
+            inner: [said[0] + felt[0], said[1] + felt[1]],
+            felt: felt[1] - felt[0],
             out: out - narrowing,
             down: e.corner_down * unit * kept * (1.0 - 0.6 * gathered) + speech.corner_down * unit,
             thick: [(1.0 - speech.thinner) * e.thick, (1.0 - speech.lower_thinner) * e.thick],
@@ -154,10 +163,12 @@ impl Lips {
         let ratio = width / self.width;
         let rounded = within((1.0 - ratio) / 0.34, 0.0, 1.0);
 
-        // The inner edges, brought together where they must meet or have passed each other.
+        // The inner edges, brought together where they must meet or have passed each other. On its way a closure takes
+        // the emotion's opening in proportion; speech's own closes by its own numbers, and only what they leave is taken.
         let gap = moves.inner[1] - moves.inner[0];
         let shown = moves.bite * within(gap, BITE.0 * self.unit, BITE.1 * self.unit);
-        let parted = lerp(gap.max(0.0), shown, moves.closure);
+        let parted = lerp(gap - moves.felt, shown, moves.closure.powi(4)) + moves.felt * (1.0 - moves.closure);
+        let parted = parted.max(0.0);
         let pressed = (-gap).max(0.0) * (1.0 - moves.bite * moves.closure);
         let inner = [
             self.meet + moves.inner[0] + MEET * (gap - parted),
@@ -182,7 +193,9 @@ impl Lips {
 
         let peak_half = (self.peaks * ratio.powf(0.9) * (1.0 + 0.15 * sneer)).min(0.3 * width);
         let peak_y = (bow - dip * (1.0 + 0.5 * sneer)).max(ceiling);
-        let corner_y = |c: Point| within(c.y + moves.down, peak_y - 0.25 * self.unit, lerp(inner[1], bottom, 0.9));
+        let corner_y = |c: Point| {
+            within(c.y + moves.down, (peak_y - 0.25 * self.unit).max(self.nose + 1.0), lerp(inner[1], bottom, 0.9))
+        };
         let corners = [Point::new(x[0], corner_y(self.corners[0])), Point::new(x[1], corner_y(self.corners[1]))];
         let mut mouth = Mouth {
             corners,

@@ -51,8 +51,8 @@ impl Neutral {
         proportion(&mut points, proportions);
         rest_brows(&mut points);
         close_mouth(&mut points);
-        let units = Units::of(&points);
         let lips = Lips::of(&mut points);
+        let units = Units::of(&points);
         let sockets = [
             Socket::of(&points, [P::P3_8, P::P3_12, P::P3_2, P::P3_4, P::P3_6], -1.0, proportions),
             Socket::of(&points, [P::P3_11, P::P3_7, P::P3_1, P::P3_3, P::P3_5], 1.0, proportions),
@@ -181,6 +181,13 @@ fn make_sound(points: &mut Points) {
         points[upper].y = c.y - within(c.y - points[upper].y, 2.0, 20.0);
         points[lower].y = c.y + within(points[lower].y - c.y, 2.0, 20.0);
     }
+    for (brow, side) in BROWS.into_iter().zip([-1.0, 1.0]) {
+        let mut from = 0.0;
+        for (p, (least, most)) in brow.into_iter().zip([(5.0, 60.0), (10.0, 70.0), (10.0, 70.0), (5.0, 70.0)]) {
+            from += within(side * points[p].x - from, least, most);
+            points[p] = Point::new(side * from, within(points[p].y, -90.0, 5.0));
+        }
+    }
     let nose = Point::new(within(points[P::P9_15].x, -30.0, 30.0), within(points[P::P9_15].y, 30.0, 140.0));
     points[P::P9_15] = nose;
     let half = within(0.5 * (points[P::P8_3].x - points[P::P8_4].x), 15.0, 80.0);
@@ -261,6 +268,8 @@ fn rest_brows(points: &mut Points) {
 /// shows further open than a line of ink is shut by its lower lip, and the chin comes along.
 fn close_mouth(points: &mut Points) {
     const A_LINE: f64 = 1.6;
+    /// How far the corners of 72 faces hang below their lips' line on average, in face units.
+    const USUAL_HANG: f64 = 2.5;
     let gap = points[P::P2_3].y - points[P::P2_2].y;
     let shut = (gap - A_LINE).max(0.0);
     points[P::P2_3].y -= shut;
@@ -269,4 +278,9 @@ fn close_mouth(points: &mut Points) {
     let meet = lerp(points[P::P2_2].y, points[P::P2_3].y, 0.4);
     points[P::P2_2].y = meet;
     points[P::P2_3].y = meet;
+    // Corners that hang far make a sad mouth of a resting one: half of what hangs further than usual is kept.
+    for corner in [P::P8_4, P::P8_3] {
+        let further = (points[corner].y - meet - USUAL_HANG).max(0.0);
+        points[corner].y -= 0.5 * further;
+    }
 }
