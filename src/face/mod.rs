@@ -5,6 +5,7 @@
 
 mod file;
 mod point;
+pub mod thesis;
 mod units;
 
 use std::ops::{Index, IndexMut};
