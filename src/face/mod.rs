@@ -8,6 +8,7 @@ pub mod find;
 pub mod measure;
 mod point;
 pub mod rig;
+pub mod thesis;
 mod units;
 
 use std::ops::{Index, IndexMut};

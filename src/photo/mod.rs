@@ -5,9 +5,33 @@
 
 mod plane;
 mod read;
+mod mask;
+mod hsi;
+mod threshold;
+mod regions;
+mod eye_pair;
+mod refine;
+mod eyeballs;
+mod edges;
+mod ranges;
+mod cuts;
+mod cheeks;
+mod stages;
 
+pub use cheeks::{Cheeks, Ear};
+pub use cuts::Cut;
+pub use edges::{Divisions, Edges, sobel};
+pub use eye_pair::{EyePair, EyePairs};
+pub use eyeballs::{Eyeball, Eyeballs};
+pub use hsi::{Hsi, hue, hue_distance};
+pub use mask::{Bounds, Mask};
 pub use plane::Plane;
+pub use ranges::{Feature, Features};
 pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, sha256};
+pub use refine::Refined;
+pub use regions::{Neighbours, Region, Regions};
+pub use stages::{Located, STAGES_SIDE, Stages};
+pub use threshold::{FaceGround, LightDark, mean_deviation, moment_preserving};
 
 use crate::drawing::Colour;
 
