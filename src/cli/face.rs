@@ -9,9 +9,10 @@ use super::output_fault;
 use crate::disk::{Fault, Result, write_whole};
 use crate::drawing::Drawing;
 use crate::face::{Anchors, Created, Face, FeaturePoint, How, create};
-use crate::figure::{Cartoon, Style};
+use crate::figure::Cartoon;
+use crate::figure::cartoon::Style;
 use crate::geometry::Point;
-use crate::photo::Photo;
+use crate::photo::{Photo, Stages};
 use crate::plot;
 use crate::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
 use crate::project::{Change, Edit, Lesson, LessonFace};
@@ -64,7 +65,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         (None, None) => return Ok(()),
     };
     if let Some(path) = &args.overlay {
-        write_png(path, &plot::points_over(&photo, &created.face, true))?;
+        write_png(path, &plot::face_over(&photo, &created.face, true))?;
     }
     if let Some(path) = &args.sheet {
         write_png(path, &sheet(&photo, &created.face)?)?;
@@ -167,14 +168,16 @@ fn as_json(created: &Created) -> serde_json::Value {
 /// Photo, stages, points, the cartoon neutral, with its mouth shapes, emotions and styles.
 fn sheet(photo: &Photo, face: &Face) -> Result<Drawing> {
     let normal = Style::built_in("normal")?;
-    let cartoon = Cartoon::new(face, &normal, &[]);
-    let mut parts = vec![
-        ("the photo".to_owned(), plot::photo(photo)),
-        ("its points".to_owned(), plot::points_over(photo, face, false)),
+    let cartoon = Cartoon::new(face, &normal);
+    let [left, right] = [FeaturePoint::P3_6, FeaturePoint::P3_5].map(|p| face.points[p.index()].at);
+    let mut stages = plot::stages(&Stages::with_eyes(photo, left, right)).into_iter();
+    let mut parts: Vec<(String, Drawing)> = stages.next().into_iter().collect();
+    parts.extend([
+        ("its points".to_owned(), plot::face_over(photo, face, false)),
         ("the cartoon".to_owned(), cartoon.draw(&Pose::default())),
-    ];
+    ]);
     for name in Style::BUILT_IN.iter().filter(|n| **n != "normal") {
-        let styled = Cartoon::new(face, &Style::built_in(name)?, &[]);
+        let styled = Cartoon::new(face, &Style::built_in(name)?);
         parts.push((format!("style {name}"), styled.draw(&Pose::default())));
     }
     for emotion in Emotion::ALL {
@@ -188,7 +191,7 @@ fn sheet(photo: &Photo, face: &Face) -> Result<Drawing> {
         };
         parts.push((format!("mouth {}", shape.letter()), cartoon.draw(&pose)));
     }
-    parts.extend(plot::stages(photo));
+    parts.extend(stages);
     Ok(plot::sheet(&parts, 6))
 }
 

@@ -3,6 +3,7 @@
 
 use usvg::{Node, Paint, Transform, tiny_skia_path as skia};
 
+use super::cartoon::{Extra, Sheet};
 use crate::disk::{Fault, Result};
 use crate::drawing::{Colour, Group, Item, fit};
 use crate::geometry::{Affine, BezPath, Point, Rect, Shape};
@@ -38,8 +39,6 @@ pub enum LayerPlace {
     Body,
     /// On the head, moving with it: a hat, glasses, a flower.
     Head,
-    /// Before everything: a frame, a board.
-    Before,
 }
 
 impl AuthorLayer {
@@ -77,9 +76,18 @@ impl AuthorLayer {
         Ok(Self { place, view, items, left_out })
     }
 
-    /// The layer as one thing of a figure that fills `view`.
+    /// The layer as things of a cartoon that fills `view`.
     #[must_use]
-    pub fn over(&self, view: Rect) -> Item {
+    pub fn extra(&self, view: Rect) -> Extra {
+        let sheet = match self.place {
+            LayerPlace::Behind => Sheet::Ground,
+            LayerPlace::Body => Sheet::Shirt,
+            LayerPlace::Head => Sheet::Hair,
+        };
+        Extra { sheet, over: true, items: vec![self.over(view)] }
+    }
+
+    fn over(&self, view: Rect) -> Item {
         Item::Group(Group {
             name: String::new(),
             transform: fit(self.view, view),

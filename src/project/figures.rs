@@ -6,7 +6,8 @@ use super::face::FACE_FILE;
 use super::manifest::MANIFEST;
 use super::{LayerEntry, LessonFace};
 use crate::disk::{Fault, Result, inside, read_bytes, read_text};
-use crate::figure::{AuthorLayer, Cartoon, Figure, LineFigure, MAX_LAYER_BYTES, Style};
+use crate::figure::cartoon::Style;
+use crate::figure::{AuthorLayer, Cartoon, Figure, LineFigure, MAX_LAYER_BYTES};
 
 /// The figure of a face; the line face where there is no face.
 pub(super) fn figure(root: &Path, face: Option<&LessonFace>) -> Result<Figure> {
@@ -35,8 +36,13 @@ pub(super) fn cartoon(root: &Path, face: &LessonFace) -> Result<Figure> {
             .help(help)
     })?;
     let style = style(root, face)?;
-    let layers = face.entry.layers.iter().map(|entry| layer(root, entry)).collect::<Result<Vec<_>>>()?;
-    Ok(Figure::Cartoon(Cartoon::new(&points, &style, &layers)))
+    let cartoon = Cartoon::new(&points, &style);
+    if face.entry.layers.is_empty() {
+        return Ok(cartoon.into());
+    }
+    let view = cartoon.view();
+    let layers = face.entry.layers.iter().map(|entry| Ok(layer(root, entry)?.extra(view))).collect::<Result<Vec<_>>>()?;
+    Ok(cartoon.with(layers).into())
 }
 
 /// The style that a face names, built in or a file of the lesson.

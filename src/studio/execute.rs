@@ -13,6 +13,7 @@ use super::state::State;
 use super::{Action, Place, edits, face_edits};
 use crate::export::Format;
 use crate::face::{Anchors, Face};
+use crate::geometry::Point;
 use crate::speech::Sound;
 
 /// Work that takes long enough to be done elsewhere.
@@ -37,6 +38,8 @@ pub enum Job {
         face: usize,
         /// The photo's file.
         path: PathBuf,
+        /// Its eyeballs, where they are known.
+        eyes: Option<[Point; 2]>,
     },
     /// Find the points of a face.
     FindFace {

@@ -34,6 +34,7 @@ pub(super) fn open(state: &mut State) -> Option<Job> {
     let figure = lesson.cartoon_of(face).ok();
     let mut desk = FaceDesk::new(number, face.entry.mouths, figure);
     let path = face.photo.clone();
+    let eyes = face.face.as_ref().map(|f| [FeaturePoint::P3_6, FeaturePoint::P3_5].map(|p| f.points[p.index()].at));
     if face.face.is_none() {
         desk.remarks.push("the points have not been found yet: r finds them".into());
     }
@@ -43,7 +44,7 @@ pub(super) fn open(state: &mut State) -> Option<Job> {
     if let Some(why) = why {
         state.say(format!("you can look but not change: {why}"));
     }
-    path.map(|path| Job::Photo { root, face: number, path })
+    path.map(|path| Job::Photo { root, face: number, path, eyes })
 }
 
 /// Carries out what is asked for on the page of a face.

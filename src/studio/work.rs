@@ -12,7 +12,9 @@ use super::export::Exporter;
 use super::studio::Report;
 use crate::disk::{Fault, Result};
 use crate::face::{Anchors, Created, Face};
-use crate::photo::Photo;
+use crate::drawing::Drawing;
+use crate::geometry::Point;
+use crate::photo::{Photo, Stages};
 use crate::project::{Lesson, check};
 
 /// Starts a job. Whatever becomes of it, it reports its end.
@@ -36,12 +38,12 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                 let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();
                 reports.send(Report::Outlined { root, clip, sound: Box::new(sound), loudest: high.max(-low) })
             }
-            Job::Photo { root, face, path } => {
+            Job::Photo { root, face, path, eyes } => {
                 let read = catch_unwind(|| Photo::read(&path)).unwrap_or_else(|_| Err(broken_photo()));
                 let photo = read.map(Arc::new);
                 let shown = photo.as_ref().ok().cloned();
                 let _ = reports.send(Report::PhotoRead { root: root.clone(), face, photo: Box::new(photo) });
-                let stages = shown.and_then(|photo| catch_unwind(|| crate::plot::stages(&photo)).ok());
+                let stages = shown.and_then(|photo| catch_unwind(|| stages(&photo, eyes)).ok());
                 reports.send(Report::Staged { root, face, stages: stages.unwrap_or_default() })
             }
             Job::FindFace { root, face, path, kept, anchors } => {
@@ -60,6 +62,15 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
             }
         };
     });
+}
+
+/// The stages of the search; from the eyes of the face on, where they are known.
+fn stages(photo: &Photo, eyes: Option<[Point; 2]>) -> Vec<(String, Drawing)> {
+    let stages = match eyes {
+        Some([left, right]) => Stages::with_eyes(photo, left, right),
+        None => Stages::of(photo),
+    };
+    crate::plot::stages(&stages)
 }
 
 fn find_face(path: &Path, kept: Option<&Face>, anchors: Option<&Anchors>) -> Result<Created> {
