@@ -12,6 +12,7 @@ mod frame;
 mod glasses;
 mod hair;
 mod jaw;
+mod kind;
 mod mask;
 mod mixture;
 mod outline;
@@ -89,5 +90,5 @@ pub fn debug(photo: &Photo, points: &Points) -> Debug {
     let r = segment::Regions::of(&frame, &shape);
     let f = hair::found(&r, &shape, cheeks.skin);
     let q = (0..mask::CELLS).map(|c| [r.back()[c], r.skin()[c], r.hair()[c], r.cloth()[c]]).collect();
-    Debug { q, lab: r.lab.clone(), area: f.mask.area(), lines: glasses::lines(&frame, &shape), m, note: f.note }
+    Debug { q, lab: r.lab.clone(), area: f.mask.area(), lines: glasses::lines(&frame, &shape), m, note: format!("{:?}", f.kind) }
 }

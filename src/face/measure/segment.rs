@@ -70,9 +70,14 @@ impl Regions {
         let guide = Guide::of(&lab);
         let behind: Vec<f32> = (0..CELLS).map(|c| backdrop.log(lab[c], c)).collect();
 
-        let cheeks = cheeks(shape, &lab);
-        let mut skin = skin_of(&cheeks);
-        let mut shaded = shaded(skin_of(&cheeks));
+        let cheeks = cheeks(shape);
+        let tones: Vec<(Lab, f32)> = cheeks.cells().map(|c| (lab[c], 1.0)).collect();
+        let mut skin = skin_of(&tones);
+        let mut shaded = shaded(skin_of(&tones));
+        // Skin is learned where neither brows nor eyes, lips or beard are.
+        let clear: Vec<bool> = (0..CELLS)
+            .map(|c| from_face[c] >= 0.0 || cheeks.0[c] || centre(c).y < shape.brows - 9.0)
+            .collect();
         // What lies below the lobes or outside the face is skin in the shade as well.
         let bright: Vec<bool> = (0..CELLS).map(|c| from_face[c] < 0.0 && centre(c).y < shape.lobe).collect();
         let mut hair = first_hair(shape, &lab, &inside, &from_face, &behind, &shaded);
@@ -111,10 +116,15 @@ impl Regions {
                         .collect();
                     Mixture::of(&samples, parts, LEAST)
                 };
-                if let Some(found) = learn(SKIN, 3, &|c| bright[c]) {
+                // Hair that was taken for skin must not teach what skin is.
+                let apart = |c: usize| match (&seen[SKIN], &seen[HAIR]) {
+                    (Some(skin), Some(hair)) => skin[c] > hair[c] - 2.0,
+                    _ => true,
+                };
+                if let Some(found) = learn(SKIN, 3, &|c| bright[c] && clear[c] && apart(c)) {
                     skin = found;
                 }
-                if let Some(found) = learn(SKIN, 4, &|c| from_face[c] < 10.0 || centre(c).y > shape.lobe) {
+                if let Some(found) = learn(SKIN, 4, &|c| clear[c] && (from_face[c] < 10.0 || centre(c).y > shape.lobe)) {
                     shaded = found;
                 }
                 hair = learn(HAIR, 3, &|_| true).or(hair);
@@ -125,21 +135,25 @@ impl Regions {
     }
 }
 
-/// Colours of cheeks and nose.
-fn cheeks(shape: &Shape, lab: &[Lab]) -> Vec<(Lab, f32)> {
+/// The cheeks and the back of the nose, without its wings.
+fn cheeks(shape: &Shape) -> Mask {
     let p = &shape.points;
     let down = Vec2::new(0.0, 13.0);
-    let polygon = [
+    let wing = |side: P, base: P| Point::new(p[side].x * 1.15, p[base].y);
+    let (left, right) = (wing(P::P9_2, P::P9_4), wing(P::P9_1, P::P9_5));
+    let up = Vec2::new(0.0, -16.0);
+    Mask::polygon(&[
         p[P::P3_12] + down,
         p[P::P3_8] + down,
         p[P::P3_11] + down,
         p[P::P3_7] + down,
-        p[P::P8_3].lerp(p[P::P2_13], 0.5),
-        p[P::P9_1] + Vec2::new(3.0, 4.0),
-        p[P::P9_2] + Vec2::new(-3.0, 4.0),
-        p[P::P8_4].lerp(p[P::P2_14], 0.5),
-    ];
-    Mask::polygon(&polygon).cells().map(|c| (lab[c], 1.0)).collect()
+        p[P::P8_3].lerp(p[P::P2_13], 0.6),
+        right + Vec2::new(6.0, 0.0),
+        right + up,
+        left + up,
+        left - Vec2::new(6.0, 0.0),
+        p[P::P8_4].lerp(p[P::P2_14], 0.6),
+    ])
 }
 
 /// Skin as the cheeks show it.
@@ -217,12 +231,17 @@ pub(super) fn ear(top: Point, out: Point, lobe: Point) -> [Point; 5] {
 /// Background, skin, hair, clothes at one place, `off` units from the face's outline.
 fn odds(shape: &Shape, at: Point, off: f32, ear: bool) -> [f32; CLASSES] {
     let (x, y) = (at.x.abs(), at.y);
-    let cloth = (-6.0 + 6.0 * ((y - shape.chin - 5.0) / 35.0).clamp(0.0, 1.0)) as f32;
+    // Shoulders begin between lobes and chin at the highest.
+    let cloth = if y < shape.chin {
+        -6.0 + 4.5 * ((y - shape.lobe) / (shape.chin - shape.lobe).max(10.0)).clamp(0.0, 1.0)
+    } else {
+        -1.5 + 1.5 * ((y - shape.chin) / 30.0).min(1.0)
+    } as f32;
     if off < 0.0 {
         let deep = -off;
         let mouth = shape.points[P::P9_15].y;
         let hair = if y < shape.brows - 6.0 {
-            -0.7 - deep / 25.0
+            -0.7 - (deep / 60.0).min(0.8)
         } else if y > mouth && x < 0.8 * shape.half_jaw {
             -6.0
         } else if y > shape.lobe {
