@@ -3,7 +3,7 @@
 
 use super::{FeaturePoint as P, How, Placed};
 use crate::geometry::{Point, Vec2};
-use crate::photo::{Ear, Feature, Located, Mask, Neighbours, Regions, Stages};
+use crate::photo::{Ear, Feature, Located, Mask, Stages};
 
 /// How far a point can be trusted that was found as the thesis finds it: one in two is within a tenth of the pupil
 /// distance.
@@ -206,15 +206,22 @@ fn face(set: &mut Set<'_>, located: &Located) {
         set.found_or(temple, end.map(|y| Point::new(x, y)), Point::new(x, middle.y - 0.5 * d));
     }
 
-    let top = top_of(face, ends(located));
+    let top = top_of(face, located);
     set.found_or(P::P11_1, top, middle - Vec2::new(0.0, d));
 }
 
-/// The mean place of the topmost rows of the largest region of the face.
-fn top_of(face: &Mask, rows: usize) -> Option<Point> {
-    let regions = Regions::of(face, Neighbours::Four);
-    let region = regions.list.iter().max_by_key(|r| r.area)?;
-    mean(regions.pixels_of(region).take_while(|(_, y)| *y < region.bounds.y0 + rows))
+/// The mean place of the topmost rows of the face's region, of what hangs together upward from the brows between the
+/// eyeballs: strands of hair have the face's hue too.
+fn top_of(face: &Mask, located: &Located) -> Option<Point> {
+    let (from, to) = (located.eyes.left.centre.x as isize, located.eyes.right.centre.x as isize);
+    let start = located.edges.divisions.brow_eye as isize;
+    let tops: Vec<(isize, isize)> = (from..=to)
+        .filter(|x| face.at(*x, start))
+        .map(|x| (x, (0..=start).rev().take_while(|y| face.at(x, *y)).last().unwrap_or(start)))
+        .collect();
+    let top = tops.iter().map(|(_, y)| *y).min()?;
+    let rows = top..top + ends(located) as isize;
+    mean(tops.iter().flat_map(|(x, y)| (*y..rows.end).map(move |row| (*x as usize, row as usize))))
 }
 
 /// Sec. 4.3.2 A, 6: the outermost, the topmost and the lowest of the ears' pixels.

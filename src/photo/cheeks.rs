@@ -31,6 +31,8 @@ pub struct Ear {
 const NEAR: (f64, f64) = (0.75, 1.30);
 /// Smaller specks than this, in d × d, are no ear; one seen from the front has some 0.1.
 const LEAST_EAR: f64 = 0.008;
+/// The widest and the highest ear, in d: what is larger is hair of the face's hue, or a wall.
+const LARGEST_EAR: (f64, f64) = (0.40, 1.05);
 
 impl Cheeks {
     /// From F_final. The rows of the 2d × 2d square are counted, so that neck and shoulders are not; both sides are
@@ -54,7 +56,7 @@ impl Cheeks {
         let right = column(offset as isize).clamp(0, face.width as isize - 1) as usize;
         // Ears lie between the brows and the mouth.
         let rows = (square.y0, ((middle.y + 1.1 * d).max(0.0) as usize).clamp(square.y0 + 1, square.y1));
-        let widest = (0.5 * d) as usize;
+        let widest = (0.6 * d) as usize;
         let sides = [(left.saturating_sub(widest), left), (right + 1, (right + 1 + widest).min(face.width))];
         let ears = sides.map(|(x0, x1)| (x0 < x1).then(|| ear(face, Bounds { x0, y0: rows.0, x1, y1: rows.1 }, d))?);
         Self { projection, rows: (square.y0, square.y1), left, right, ears }
@@ -95,7 +97,11 @@ fn ear(face: &Mask, within: Bounds, d: f64) -> Option<Ear> {
     let bits = rows.flat_map(|y| &face.bits[y * face.width + within.x0..y * face.width + within.x1]);
     let cut = Mask { width: within.width(), height: within.height(), bits: bits.copied().collect() };
     let regions = Regions::of(&cut, Neighbours::Four);
-    let region = regions.list.iter().max_by_key(|r| r.area).filter(|r| r.area as f64 >= LEAST_EAR * d * d)?;
+    let region = regions.list.iter().max_by_key(|r| r.area)?;
+    let (width, height) = (region.bounds.width() as f64, region.bounds.height() as f64);
+    if (region.area as f64) < LEAST_EAR * d * d || width > LARGEST_EAR.0 * d || height > LARGEST_EAR.1 * d {
+        return None;
+    }
     let pixels = regions.pixels_of(region).map(|(x, y)| (within.x0 + x, within.y0 + y)).collect();
     let b = region.bounds;
     let (x, y) = (within.x0, within.y0);

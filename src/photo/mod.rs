@@ -17,6 +17,8 @@ mod ranges;
 mod cuts;
 mod cheeks;
 mod stages;
+mod quality;
+mod write;
 
 pub use cheeks::{Cheeks, Ear};
 pub use cuts::Cut;
@@ -26,12 +28,14 @@ pub use eyeballs::{Eyeball, Eyeballs};
 pub use hsi::{Hsi, hue, hue_distance};
 pub use mask::{Bounds, Mask};
 pub use plane::Plane;
+pub use quality::Quality;
 pub use ranges::{Feature, Features};
 pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, sha256};
 pub use refine::Refined;
 pub use regions::{Neighbours, Region, Regions};
 pub use stages::{Located, STAGES_SIDE, Stages};
 pub use threshold::{FaceGround, LightDark, mean_deviation, moment_preserving};
+pub use write::to_clean_png;
 
 use crate::drawing::Colour;
 

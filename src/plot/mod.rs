@@ -1,4 +1,5 @@
-//! Charts of a clip (paper figs. 4 to 7): ratios, change, timeline, faces with their ratios.
+//! Charts of a clip (paper figs. 4 to 7): ratios, change, timeline, faces with their ratios. And what is seen in a photo:
+//! the stages of finding a face (thesis figs. 3.6 to 3.18), its points, contact sheets.
 //!
 //! It makes drawings from plain values; where the values come from and what file the chart goes to is not its
 //! business. Colours are told apart by colour-blind eyes (Okabe and Ito 2008), and every curve carries its letter.
@@ -6,11 +7,17 @@
 mod axes;
 mod curves;
 mod faces;
+mod points;
 mod score;
+mod sheet;
+mod stages;
 
 pub use curves::{Samples, change, ratios};
 pub use faces::{faces, frame};
+pub use points::{face_over, points_over};
 pub use score::{Row, timeline};
+pub use sheet::sheet;
+pub use stages::stages;
 
 use crate::drawing::Colour;
 use crate::pose::Emotion;
