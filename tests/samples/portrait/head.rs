@@ -254,7 +254,7 @@ impl Head {
             let (y, gap) = (true_place.1, self.gap(x));
             let line = l.lip_line.at(x);
             let cut = ((line - y).max(y - line - gap) * 0.8).max(x - 35.0);
-            let hollow = cut.max(true_place.2.mul_add(-1.0, 84.0));
+            let hollow = cut.max(84.0 - true_place.2);
             d = carve(d, hollow, 3.0);
         }
         d

@@ -81,7 +81,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
 
     // A shaved beard greys the jaw.
     if who.stubble > 0.0 {
-        let side = smooth(58.0, 92.0, y - 0.35 * (f.0 - 40.0).abs()) + smooth(70.0, 95.0, y) * 0.0;
+        let side = smooth(58.0, 92.0, y - 0.35 * (x - 40.0).abs());
         let lip = smooth(70.0, 78.0, y) * smooth(52.0, 40.0, x);
         let beard = side.max(lip) * smooth(195.0, 165.0, y) * smooth(0.0, 30.0, q.2);
         let dots = 0.75 + 0.5 * grain(place * 1.1);
