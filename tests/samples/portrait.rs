@@ -71,8 +71,8 @@ fn scene(name: &str) -> Option<(Vec<(Person, Stand)>, Rig)> {
         "man" => one(Person::man(), PASSPORT),
         "sidelight" => (vec![(woman, PASSPORT)], Rig::side()),
         "two" => {
-            let left = Stand { x: 172.0, y: 292.0, scale: 0.56, ..PASSPORT };
-            let right = Stand { x: 428.0, y: 262.0, scale: 0.59, ..PASSPORT };
+            let left = Stand { x: 158.0, y: 312.0, scale: 0.50, ..PASSPORT };
+            let right = Stand { x: 446.0, y: 276.0, scale: 0.51, ..PASSPORT };
             (vec![(woman, left), (Person::man(), right)], Rig::soft())
         }
         _ => return None,

@@ -41,7 +41,7 @@ pub fn shirt(p: V, wide: f32) -> f32 {
     }
     // Hanging folds: long in y, thin across.
     let hang = smooth(200.0, 300.0, p.1);
-    let folds = 3.2 * cloud(V(p.0 * 0.024 + p.1 * 0.004, p.1 * 0.009, p.2 * 0.012)) * hang;
+    let folds = 4.5 * cloud(V(p.0 * 0.024 + p.1 * 0.004, p.1 * 0.009, p.2 * 0.012)) * hang;
     let thick = cloth - 4.5 - folds;
     // The neckline is an upright oval round the foot of the neck, cut out of the cloth.
     let edge = (1.0 - (p.0 / 94.0).hypot((p.2 + 24.0) / 58.0)) * 60.0;

@@ -19,7 +19,7 @@ pub fn at(head: &Head, place: V) -> (Surface, V) {
     // White that is never white: pink towards the corners, veined, shaded by the ball's own roundness.
     let corner = smooth(9.0, 20.0, dx.abs());
     let vein = smooth(0.25, 0.6, cloud(V(q.0 * 0.5, q.1 * 0.9, 3.0)).abs()) * corner;
-    let white = V(0.62, 0.565, 0.53).lerp(V(0.50, 0.33, 0.29), 0.45 * corner + 0.18 * vein);
+    let white = V(0.57, 0.52, 0.485).lerp(V(0.50, 0.33, 0.29), 0.45 * corner + 0.18 * vein);
 
     // The iris: darker rim, lighter ring about the pupil, fibres between.
     let fibre = grain(V(turn.cos() * 9.0, turn.sin() * 9.0, r * 0.35 + 5.0 * side));

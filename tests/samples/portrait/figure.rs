@@ -103,25 +103,37 @@ impl<'a> Figure<'a> {
 
     fn march(&self, from: V, to: V) -> Option<(V, Stuff)> {
         let (mut t, end) = bounds(from, to)?;
-        let mut last = None;
-        for _ in 0..160 {
+        let mut before = t;
+        for _ in 0..200 {
             let p = from + to * t;
             let (d, stuff) = self.nearest(p);
-            if d.abs() < 0.04 {
+            if d < -0.04 {
+                return Some(self.between(from, to, before, t));
+            }
+            if d < 0.04 {
                 return Some((p, stuff));
             }
-            // A ray that grazes an edge may creep: what it has all but touched counts.
-            if d < 0.6 {
-                last = Some((p, stuff));
-            } else if d > 4.0 {
-                last = None;
-            }
-            t += d * 0.72;
+            before = t;
+            // Under the chin the nearest surface is not the one straight inwards: no long steps there.
+            t += (d * 0.72).clamp(0.25, 12.0);
             if t > end {
                 return None;
             }
         }
-        last
+        // A ray that creeps along an edge counts as having touched it.
+        let p = from + to * t;
+        let (d, stuff) = self.nearest(p);
+        (d < 1.0).then_some((p, stuff))
+    }
+
+    /// The surface between a place before it and one behind it on a ray, by halving.
+    fn between(&self, from: V, to: V, mut before: f32, mut behind: f32) -> (V, Stuff) {
+        for _ in 0..14 {
+            let t = (before + behind) * 0.5;
+            if self.distance(from + to * t) > 0.0 { before = t } else { behind = t }
+        }
+        let p = from + to * behind;
+        (p, self.nearest(p).1)
     }
 
     /// The part of a large lamp that is seen from `p` (Quilez's estimate: the narrowest passage, as an angle).
@@ -135,7 +147,7 @@ impl<'a> Figure<'a> {
             if open < 0.0 || t > 170.0 {
                 break;
             }
-            t += d.clamp(1.5, 24.0);
+            t += d.clamp(1.5, 16.0);
         }
         let open = open.max(0.0);
         open * open * (3.0 - 2.0 * open)
@@ -175,7 +187,7 @@ impl<'a> Figure<'a> {
         let key = self.stand.turned(rig.key);
         let fill = self.stand.turned(rig.fill);
         let up = self.stand.turned(V(0.0, -1.0, 0.0));
-        let seen = self.lamp(place + smooth_n * 0.6, key, rig.sharp) * self.mass.through(place, key, 0.30, 14);
+        let seen = self.lamp(place + smooth_n * 0.6, key, rig.sharp) * self.mass.through(place, key, 0.20, 14);
         let open = self.sky(place, smooth_n);
         let shut_in = self.mass.through(place, (smooth_n + see).unit(), 0.10, 8);
         let ambient = open * (0.35 + 0.65 * shut_in);

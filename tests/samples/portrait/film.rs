@@ -12,12 +12,13 @@ use crate::view::Canvas;
 /// Width of the lens's blur, in pixels.
 const BLUR: f32 = 0.52;
 
-/// Deviation of the sensor's noise, in 1/255.
+/// Deviation of the sensor's noise, in 1/255, in a picture of 600 pixels; a smaller picture averages it away.
 const NOISE: f32 = 1.3;
 
 /// sRGB bytes, row by row from the top, three to a pixel.
 pub fn develop(canvas: &Canvas, seed: u64) -> Vec<u8> {
     let (side, fine, wide) = (canvas.side, Canvas::FINE, canvas.wide());
+    let grain = NOISE * (side as f32 / 600.0).min(1.0);
     let sigma = BLUR * fine as f32;
     let reach = (sigma * 2.6).ceil() as i32;
     let kernel: Vec<f32> = (-reach..reach).map(|i| (-0.5 * ((i as f32 + 0.5) / sigma).powi(2)).exp()).collect();
@@ -45,7 +46,7 @@ pub fn develop(canvas: &Canvas, seed: u64) -> Vec<u8> {
                 .flat_map(|x| {
                     let c = gather(&|r| across[r * side + x], wide, y * fine);
                     let n = noise(x, y, seed);
-                    let own = |k: u64| n * 0.8 + 0.5 * noise(x, y, seed ^ (k + 1) << 40);
+                    let own = |k: u64| grain * (n * 0.8 + 0.5 * noise(x, y, seed ^ (k + 1) << 40));
                     [tone(c.0, own(0)), tone(c.1, own(1)), tone(c.2, own(2))]
                 })
                 .collect::<Vec<_>>()
@@ -64,9 +65,9 @@ fn tone(light: f32, noise: f32) -> u8 {
     let light = light.max(0.0);
     let light = if light > 0.6 { 0.6 + 0.4 * (1.0 - (-(light - 0.6) / 0.4).exp()) } else { light };
     let s = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
-    let s = mix(s, s * s * (3.0 - 2.0 * s), 0.16);
+    let s = mix(s, s * s * (3.0 - 2.0 * s), 0.24);
     // Noise is strongest in the middle tones once the eye's curve is applied.
-    let s = s * 255.0 + noise * NOISE * (0.55 + s * (1.0 - s) * 1.8);
+    let s = s * 255.0 + noise * (0.55 + s * (1.0 - s) * 1.8);
     (s + 0.5).clamp(0.0, 255.0) as u8
 }
 

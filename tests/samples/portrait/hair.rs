@@ -6,6 +6,7 @@ use crate::curve::Curve;
 use crate::head::{EYE, EYE_RADIUS, Head};
 use crate::noise::{Dice, cloud, grain};
 use crate::person::Cut;
+use crate::skull::CENTRE;
 use crate::vector::{V, mix, smooth, spot};
 
 /// One hair, from its root to its tip.
@@ -89,8 +90,8 @@ pub fn grow(head: &Head) -> Vec<Strand> {
             let mut dice = Dice::new(head.person.seed.wrapping_mul(1_000_003) ^ i as u64);
             let root = root(head, &mut dice)?;
             Some(match cut {
-                Cut::Bob => bob(head, &face, root, &mut dice),
-                Cut::Short => short(head, root, &mut dice),
+                Cut::Bob => bob(head, &face, &root, &mut dice),
+                Cut::Short => short(head, &root, &mut dice),
             })
         })
         .collect();
@@ -110,7 +111,16 @@ struct Root {
 fn root(head: &Head, dice: &mut Dice) -> Option<Root> {
     let (z, turn) = (dice.between(-1.0, 1.0), dice.between(0.0, std::f32::consts::TAU));
     let r = (1.0 - z * z).sqrt();
-    let at = head.skull.surface(V(r * turn.cos(), z, r * turn.sin()));
+    let mut at = head.skull.surface(V(r * turn.cos(), z, r * turn.sin()));
+    if head.person.cut == Cut::Bob && dice.roll() < 0.07 {
+        // Beside the parting no hair from elsewhere covers the scalp: more grows there.
+        let z = dice.between(WHORL - 15.0, 112.0);
+        let x = parting(z) + 4.5 * dice.normal();
+        at = V(x, -140.0, z);
+        for _ in 0..4 {
+            at = head.skull.surface((V(x, at.1, z) - CENTRE).unit());
+        }
+    }
     let ragged = 3.0 * cloud(at * 0.16) + 2.0 * dice.normal();
     let inside = head.within_hairline(at) + ragged;
     (inside > 0.0 && dice.roll() < 0.25 + smooth(0.0, 12.0, inside)).then_some(Root { at, inside })
@@ -124,20 +134,23 @@ fn tint(head: &Head, at: V, dice: &mut Dice) -> V {
     head.person.hair.by(V(1.0 + warm, 1.0 + 0.45 * warm, 1.0)) * (lock * own.max(0.3))
 }
 
-/// Where the parting runs: x for a depth z, from the hairline back to the crown.
+/// The depth at which the parting ends and hair goes back and to the sides from one point.
+const WHORL: f32 = 48.0;
+
+/// Where the parting runs: x for a depth z, from the hairline back to the whorl.
 fn parting(z: f32) -> f32 {
-    mix(12.0, 33.0, smooth(-20.0, 110.0, z)) + 1.6 * (z * 0.13).sin()
+    mix(24.0, 38.0, smooth(WHORL, 110.0, z)) + 1.6 * (z * 0.13).sin()
 }
 
-fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
+fn bob(head: &Head, face: &Curve, root: &Root, dice: &mut Dice) -> Strand {
     let seed = head.person.seed as f32;
     let at = root.at;
     let up = head.skull.outward(at);
     // In front of the crown hair is combed off the parting; behind it, away from the whorl.
     let side = if at.0 > parting(at.2) { 1.0 } else { -1.0 };
     let off = V(side, 0.25, -0.32);
-    let whorl = V(at.0 - 12.0, at.1 + 150.0, at.2 + 22.0);
-    let front = smooth(-40.0, 0.0, at.2);
+    let whorl = V(at.0 - 24.0, 0.6 * (at.1 + 140.0), at.2 - WHORL);
+    let front = smooth(WHORL - 12.0, WHORL + 14.0, at.2);
     let comb = (whorl.unit() + V(0.0, 0.35, 0.0)).lerp(off, front);
     let comb = (comb - up * comb.dot(up)).unit();
     // Hair from above lies over hair from below.
@@ -180,21 +193,21 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
             17.0 * spot(((next.1 - 30.0) / 50.0).hypot((next.2 + 14.0) / 36.0)) * smooth(70.0, 100.0, next.0.abs());
         let cover = ear
             + 2.2 * smooth(0.0, 4.0, run)
-            + (layer - 2.0) * smooth(0.0, 45.0, run)
+            + (layer - 2.0) * smooth(0.0, 34.0, run)
             + stray * 4.0 * smooth(10.0, 90.0, run) * smooth(130.0, 40.0, p.1);
         let edge = smooth(10.0, 40.0, p.2) * smooth(0.0, -40.0, p.1) * smooth(30.0, 4.0, p.0 * side - face.at(p.1));
-        let from_part = (p.0 - parting(p.2)).hypot((-p.2 - 20.0).max(0.0)) + (p.1 + 130.0).max(0.0);
-        let cover = cover * mix(1.0, 0.3, edge) * mix(0.82, 1.0, smooth(0.0, 90.0, from_part)) + 1.0;
+        let from_part = (p.0 - parting(p.2)).hypot((WHORL - p.2).max(0.0)) + (p.1 + 130.0).max(0.0);
+        let cover = cover * mix(1.0, 0.3, edge) * mix(0.9, 1.0, smooth(0.0, 60.0, from_part)) + 1.0;
         let mut q = next;
         if far < cover {
-            let push = (cover - far).min(step * 0.9);
+            let push = (cover - far).min(step * 0.55);
             q = next + out * push;
         } else if far > cover + 2.0 && q.1 < 40.0 {
-            q = next - out * ((far - cover - 2.0).min(step * 0.55));
+            q = next - out * ((far - cover - 2.0).min(step * 0.3));
         }
         // The face stays free: the hair is swept along the hairline and hangs as a curtain on either side.
         let free = face.at(q.1) + 2.6 * own.0 + 4.0 * ragged + layer * 0.25;
-        let ahead = smooth(15.0, 45.0, q.2);
+        let ahead = smooth(15.0, 45.0, q.2) * smooth(-106.0, -90.0, q.1);
         if ahead > 0.0 && q.0 * side < free {
             q.0 = mix(q.0, free * side, 0.35 * ahead);
         }
@@ -203,7 +216,7 @@ fn bob(head: &Head, face: &Curve, root: Root, dice: &mut Dice) -> Strand {
         if q.2 > rear && q.1 > -70.0 {
             q.2 = mix(q.2, rear, 0.07 * smooth(-70.0, 0.0, q.1));
         }
-        direction = (q - p).unit();
+        direction = direction.lerp((q - p).unit(), 0.65).unit();
         p = q;
         points.push(p);
     }
@@ -241,7 +254,7 @@ fn down(head: &Head, all: &mut Vec<Strand>) {
     }
 }
 
-fn short(head: &Head, root: Root, dice: &mut Dice) -> Strand {
+fn short(head: &Head, root: &Root, dice: &mut Dice) -> Strand {
     let at = root.at;
     let up = head.skull.outward(at);
     let top = smooth(-30.0, -110.0, at.1);

@@ -48,9 +48,9 @@ impl Lines {
                 (25.4, 6.0),
                 (29.5, 2.2),
                 (35.5, -3.2),
-                (42.0, -6.2),
-                (49.0, -7.3),
-                (56.0, -6.0),
+                (42.0, -5.6 + person.droop),
+                (49.0, -6.6 + person.droop),
+                (56.0, -5.5 + person.droop),
                 (61.5, -2.6),
                 (66.8, 2.4),
             ]),
@@ -223,7 +223,7 @@ impl Head {
         let mut d = d;
         // The groove under the nose, between two ridges.
         let above = smooth(67.0, 72.0, p.1) * smooth(93.0, 86.0, p.1);
-        d += above * (1.5 * spot(x / 3.6) - 0.9 * spot((x - 6.5) / 2.6));
+        d += above * (1.2 * spot(x / 3.6) - 0.6 * spot((x - 6.8) / 3.0));
         if x < 46.0 && p.1 < 135.0 {
             let u = (x / 39.0).min(1.0);
             let taper = (1.0 - u * u).sqrt();
@@ -254,7 +254,7 @@ impl Head {
             let (y, gap) = (true_place.1, self.gap(x));
             let line = l.lip_line.at(x);
             let cut = ((line - y).max(y - line - gap) * 0.8).max(x - 35.0);
-            let hollow = cut.max(true_place.2.mul_add(-1.0, 84.0));
+            let hollow = cut.max(84.0 - true_place.2);
             d = carve(d, hollow, 3.0);
         }
         d
@@ -288,8 +288,10 @@ impl Head {
         let back = V(0.50, -0.10, -0.86);
         let out = V(0.86, 0.0, 0.50);
         let (a, b, c) = (q.dot(back), q.1 + 0.08 * q.0, q.dot(out));
-        let wide = 26.0 - 6.0 * smooth(-5.0, 40.0, b) - 2.0 * smooth(-20.0, -44.0, b);
-        let round = ((a - 19.0) / wide).hypot((b + 1.0) / 43.0);
+        let wide = 26.0 - 4.0 * smooth(-5.0, 40.0, b) - 2.0 * smooth(-20.0, -44.0, b);
+        // Rounder below than an oval: the lobe.
+        let (u, v) = (((a - 19.0) / wide).abs(), (b + 1.0) / 41.0);
+        let round = if v > 0.0 { (u.powi(3) + v.powi(3)).cbrt() } else { u.hypot(v) };
         if round > 2.0 || c.abs() > 40.0 {
             return d;
         }

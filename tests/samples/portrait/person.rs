@@ -44,6 +44,8 @@ pub struct Person {
     pub brow_lift: f32,
     /// How far the brows arch: 1 for a full arch, 0 for none.
     pub arch: f32,
+    /// How far the upper lids hang below the average.
+    pub droop: f32,
     /// How wide the neck is.
     pub neck: f32,
     pub shirt: V,
@@ -76,6 +78,7 @@ impl Person {
             ridge: 0.0,
             brow_lift: 3.0,
             arch: 0.9,
+            droop: 0.0,
             neck: 0.93,
             shirt: V(0.10, 0.145, 0.19),
             stubble: 0.0,
@@ -104,6 +107,7 @@ impl Person {
             ridge: 1.0,
             brow_lift: 0.0,
             arch: 0.5,
+            droop: 1.0,
             neck: 1.24,
             shirt: V(0.50, 0.50, 0.48),
             stubble: 0.5,

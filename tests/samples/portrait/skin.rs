@@ -54,7 +54,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
 
     // The scalp is dark with roots.
     let scalp = smooth(-1.0, 12.0, head.within_hairline(place)) * smooth(110.0, 70.0, y);
-    c = c.lerp(who.hair * 1.6, 0.8 * scalp);
+    c = c.lerp(who.hair * 1.6, 0.66 * scalp);
 
     // Around the eye: brownish on the lid, bluish in the hollow under it.
     let lid = front * smooth(-14.0, -8.0, l.crease.below(x, y)) * smooth(14.0, 6.0, l.lid_lower.below(x, y));
@@ -81,15 +81,15 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
 
     // A shaved beard greys the jaw.
     if who.stubble > 0.0 {
-        let side = smooth(58.0, 92.0, y - 0.35 * (f.0 - 40.0).abs()) + smooth(70.0, 95.0, y) * 0.0;
+        let side = smooth(58.0, 92.0, y - 0.35 * (x - 40.0).abs());
         let lip = smooth(70.0, 78.0, y) * smooth(52.0, 40.0, x);
         let beard = side.max(lip) * smooth(195.0, 165.0, y) * smooth(0.0, 30.0, q.2);
         let dots = 0.75 + 0.5 * grain(place * 1.1);
         c = c.by(V::all(1.0).lerp(V(0.62, 0.62, 0.66), who.stubble * beard * dots));
     }
 
-    let mut rough = 0.47 + 0.05 * fine;
-    let mut gloss = 0.75 + 0.12 * fine;
+    let mut rough = 0.46 + 0.05 * fine;
+    let mut gloss = 0.88 + 0.22 * fine;
     gloss += 0.35 * (spot(x / 12.0) * smooth(-60.0, -20.0, y) * smooth(64.0, 50.0, y)) * front;
     gloss += 0.25 * spot((x / 50.0).hypot((y + 62.0) / 30.0)) * front;
     gloss *= 1.0 - 0.6 * lid.max(hollow);
@@ -111,7 +111,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
         let lip = who.lips * (lines * shade * (1.0 - 0.55 * seam));
         c = c.lerp(lip, lips * 0.92);
         rough = mix(rough, 0.42, lips);
-        gloss = mix(gloss, 0.7, lips);
+        gloss = mix(gloss, if y < l.lip_line.at(x) { 0.42 } else { 0.7 }, lips);
     }
     // Between the lips and in the nostrils little light is left.
     let hole = spot(((x - 9.6 * who.nose) / (4.6 * who.nose)).hypot((y - 65.2) / 3.2)) * front;

@@ -130,5 +130,5 @@ fn one(along: V, to: V, see: V, colour: V) -> V {
     let lobe = |shift: f32, width: f32| (-((half - shift) / width).powi(2) * 0.5).exp();
     let sine = (1.0 - l * l).sqrt();
     let warm = V(colour.0.sqrt(), colour.1.sqrt(), colour.2.sqrt());
-    colour * (sine * 0.75) + V::all(0.030 * lobe(-0.10, 0.10)) + warm.by(warm) * (1.6 * lobe(0.13, 0.19))
+    colour * (sine * 0.75) + V::all(0.055 * lobe(-0.10, 0.10)) + warm.by(warm) * (1.6 * lobe(0.13, 0.19))
 }

@@ -54,10 +54,6 @@ impl V {
         let (s, c) = angle.sin_cos();
         V(c * self.0 - s * self.1, s * self.0 + c * self.1, self.2)
     }
-
-    pub fn max(self, s: f32) -> V {
-        V(self.0.max(s), self.1.max(s), self.2.max(s))
-    }
 }
 
 impl Add for V {

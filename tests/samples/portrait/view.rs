@@ -63,11 +63,11 @@ impl Rig {
     pub fn soft() -> Rig {
         Rig {
             key: V(-0.34, -0.50, 0.80).unit(),
-            key_power: 0.98,
+            key_power: 1.12,
             sharp: 4.5,
             fill: V(0.52, -0.12, 0.85).unit(),
-            fill_power: 0.30,
-            sky: 0.33,
+            fill_power: 0.27,
+            sky: 0.30,
         }
     }
 
@@ -102,8 +102,8 @@ impl Canvas {
             .map(|i| {
                 let (x, y) = ((i % wide) as f32 / wide as f32, (i / wide) as f32 / wide as f32);
                 let glow = smooth(0.95, 0.0, (x - 0.47).hypot((y - 0.36) * 0.9));
-                let fall = 1.0 - 0.10 * smooth(0.5, 1.0, y) - 0.06 * smooth(0.4, 1.0, x);
-                V(0.66, 0.675, 0.672) * ((0.80 + 0.24 * glow) * fall * light)
+                let fall = 1.0 - 0.05 * smooth(0.3, 0.0, y) - 0.10 * smooth(0.5, 1.0, y) - 0.06 * smooth(0.4, 1.0, x);
+                V(0.66, 0.675, 0.672) * ((0.74 + 0.31 * glow) * fall * light)
             })
             .collect();
         Canvas { side, colour, near: vec![f32::MIN; wide * wide] }
