@@ -38,7 +38,7 @@ pub(super) fn make_sound(points: &mut Points) {
     }
     for (brow, side) in BROWS.into_iter().zip([-1.0, 1.0]) {
         let mut from = 0.0;
-        for (p, (least, most)) in brow.into_iter().zip([(5.0, 60.0), (10.0, 70.0), (10.0, 70.0), (5.0, 70.0)]) {
+        for (p, (least, most)) in brow.into_iter().zip([(5.0, 60.0), (4.0, 70.0), (4.0, 70.0), (3.0, 70.0)]) {
             from += within(side * points[p].x - from, least, most);
             points[p] = Point::new(side * from, within(points[p].y, -90.0, 5.0));
         }
