@@ -67,5 +67,5 @@ fn of_record(path: &Path, figure: &str) -> Result<Show> {
         mouths: MouthPreset::default(),
     });
     let figure = LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
-    Ok(Show { title, timeline, figure, captions: Vec::new() })
+    Ok(Show { title, timeline, figure: figure.into(), captions: Vec::new() })
 }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::{FrameSet, Shard};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::figure::LineFigure;
+use crate::figure::Figure;
 use crate::project::{Lesson, Output};
 use crate::timeline::Timeline;
 use crate::timing::Timing;
@@ -130,7 +130,7 @@ pub struct Job {
     /// The built score.
     pub timeline: Timeline,
     /// The figure that draws it.
-    pub figure: LineFigure,
+    pub figure: Figure,
 }
 
 /// Works out the jobs of an export, one a clip. Nothing is written yet.

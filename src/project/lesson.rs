@@ -7,7 +7,7 @@ use super::journal::Journal;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest};
 use super::{Change, Clip};
 use crate::disk::{Fault, Lock, Result, inside, nearest, read_text};
-use crate::figure::LineFigure;
+use crate::figure::{Figure, LineFigure};
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
 
@@ -194,7 +194,7 @@ impl Lesson {
     ///
     /// # Errors
     /// When the manifest names one that does not exist or is damaged.
-    pub fn figure_of(&self, clip: &ClipEntry) -> Result<LineFigure> {
+    pub fn figure_of(&self, clip: &ClipEntry) -> Result<Figure> {
         figure_of_face(&self.root, self.manifest.face_of(clip))
     }
 }
@@ -210,7 +210,7 @@ pub(super) fn refusal(what: &str, why: &str) -> Fault {
 const ELSEWHERE: &str = "it is open in another window";
 
 /// The figure of a face; the line face where there is no face, or it names none.
-pub(super) fn figure_of_face(root: &Path, face: Option<&FaceEntry>) -> Result<LineFigure> {
+pub(super) fn figure_of_face(root: &Path, face: Option<&FaceEntry>) -> Result<Figure> {
     let named = face.and_then(|f| f.figure.as_deref()).unwrap_or("line");
     let in_manifest = |fault: Fault| {
         let line = std::fs::read_to_string(root.join(MANIFEST))
@@ -231,12 +231,12 @@ pub(super) fn figure_of_face(root: &Path, face: Option<&FaceEntry>) -> Result<Li
                         .help("put the figure there, or write figure = \"line\""),
                 ));
             }
-            LineFigure::parse(&read_text(&path)?).map_err(|f| f.at(&path))
+            LineFigure::parse(&read_text(&path)?).map(Figure::from).map_err(|f| f.at(&path))
         }
         None if named == "cartoon" => Err(in_manifest(
             Fault::new("the figure `cartoon` cannot be drawn by this version").help("write figure = \"line\""),
         )),
-        None => LineFigure::built_in(named).map_err(in_manifest),
+        None => LineFigure::built_in(named).map(Figure::from).map_err(in_manifest),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Lane;
 use super::window::Window;
-use crate::figure::LineFigure;
+use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::project::{Clip, Lesson};
 use crate::timeline::{Key, KeyValue, MouthKey, Origin, Timeline, Track};
@@ -18,7 +18,7 @@ pub struct Editor {
     /// The clip's score as it is now.
     pub timeline: Timeline,
     /// Who is drawn.
-    pub figure: LineFigure,
+    pub figure: Figure,
     /// The instant that is looked at, in seconds.
     pub cursor: f64,
     /// What of the clip is on the screen.
@@ -69,7 +69,7 @@ impl LaneKey {
 impl Editor {
     /// Opens a clip at its start.
     #[must_use]
-    pub fn new(lesson: &Lesson, clip: usize, figure: LineFigure) -> Self {
+    pub fn new(lesson: &Lesson, clip: usize, figure: Figure) -> Self {
         let timeline = lesson.timeline(clip, None);
         let mut editor = Self {
             clip,

@@ -5,7 +5,7 @@ use ratatui::layout::{Rect, Size};
 use ratatui::style::Style;
 
 use super::look::Colours;
-use crate::figure::LineFigure;
+use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::render::{Painter, Picture};
 
@@ -27,10 +27,10 @@ const DARK: u32 = 190;
 #[derive(Default)]
 pub struct FacePicture {
     painter: Option<Painter>,
-    shown: Option<(String, Pose, Size, Colours)>,
+    shown: Option<(u64, Pose, Size, Colours)>,
     size: Size,
     /// The figure as it is painted: the face alone, bold enough for so few pixels.
-    close: Option<LineFigure>,
+    close: Option<Figure>,
     cells: Vec<Cell>,
 }
 
@@ -44,7 +44,7 @@ enum Cell {
 impl FacePicture {
     /// How many cells a figure takes of an area: as high as it is, as wide as the figure then is.
     #[must_use]
-    pub fn size_in(figure: &LineFigure, area: Size) -> Size {
+    pub fn size_in(figure: &Figure, area: Size) -> Size {
         let view = figure.face_view();
         let aspect = (view.width() / view.height().max(1e-6)).clamp(0.1, 10.0);
         // A cell is twice as high as it is wide.
@@ -54,9 +54,9 @@ impl FacePicture {
     }
 
     /// Paints the figure, unless it is painted so already.
-    pub fn show(&mut self, figure: &LineFigure, pose: &Pose, area: Rect, colours: Colours) {
+    pub fn show(&mut self, figure: &Figure, pose: &Pose, area: Rect, colours: Colours) {
         let size = Self::size_in(figure, area.as_size());
-        let wanted = (figure.title().to_owned(), *pose, size, colours);
+        let wanted = (figure.key(), *pose, size, colours);
         if self.shown.as_ref() == Some(&wanted) {
             return;
         }
@@ -153,10 +153,15 @@ fn mean(picture: &Picture, x: u32, y: u32, wide: u32, high: u32) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::LineFigure;
     use crate::pose::{Emotion, Ratios};
 
+    fn line() -> Figure {
+        LineFigure::built_in("line").unwrap().into()
+    }
+
     fn painted(pose: &Pose, colours: Colours) -> (FacePicture, Buffer) {
-        let figure = LineFigure::built_in("line").unwrap();
+        let figure = line();
         let area = Rect::new(0, 0, 28, 12);
         let mut picture = FacePicture::default();
         picture.show(&figure, pose, area, colours);
@@ -178,13 +183,13 @@ mod tests {
         let (_, other) = painted(&Pose::of(Ratios::pure(Emotion::Surprised)), Colours::True);
         assert_ne!(first, other);
         neutral.painter = None;
-        neutral.show(&LineFigure::built_in("line").unwrap(), &Pose::default(), Rect::new(0, 0, 28, 12), Colours::True);
+        neutral.show(&line(), &Pose::default(), Rect::new(0, 0, 28, 12), Colours::True);
         assert!(!neutral.cells.is_empty());
     }
 
     #[test]
     fn the_picture_has_the_figures_shape() {
-        let figure = LineFigure::built_in("line").unwrap();
+        let figure = line();
         let size = FacePicture::size_in(&figure, Size::new(80, 12));
         assert!((18..=26).contains(&size.width) && size.height == 12, "{size:?}");
         let narrow = FacePicture::size_in(&figure, Size::new(10, 40));

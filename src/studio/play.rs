@@ -12,7 +12,7 @@ use super::look::Colours;
 use super::picture::FacePicture;
 use super::run::{Desk, turn};
 use crate::disk::Result;
-use crate::figure::LineFigure;
+use crate::figure::Figure;
 use crate::project::Lesson;
 use crate::timeline::Timeline;
 
@@ -24,7 +24,7 @@ pub struct Show {
     /// What happens.
     pub timeline: Timeline,
     /// Who is seen.
-    pub figure: LineFigure,
+    pub figure: Figure,
     /// What is said; may be empty.
     pub captions: Vec<Caption>,
 }
@@ -261,7 +261,7 @@ mod tests {
         let show = Show {
             title: "a record".into(),
             timeline: Timeline::build(&sources),
-            figure: LineFigure::built_in("cat").unwrap(),
+            figure: crate::figure::LineFigure::built_in("cat").unwrap().into(),
             captions: Vec::new(),
         };
         Player::new(show, Colours::None)

@@ -108,7 +108,6 @@ struct Place {
     half: f64,
     corner: f64,
     peaks: f64,
-    upper: f64,
     lower: f64,
     nose: f64,
     /// From nose to lip.
@@ -126,7 +125,6 @@ impl Place {
             half: (right.x - left.x) / 2.0,
             corner: left.y.midpoint(right.y),
             peaks: points[P::P8_9].y,
-            upper: points[P::P8_1].y,
             lower: points[P::P8_2].y,
             nose: points[P::P9_15].y,
             room: units.mouth_nose,

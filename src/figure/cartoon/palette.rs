@@ -106,7 +106,8 @@ impl Palette {
         let of_hair = |l: f64, c: f64, h: f64| Oklch::new(l, hair.c * c, hair.h + h).colour();
         p.hair = hair.colour();
         p.hair_shade = of_hair(hair.l - if fair { 0.085 } else { 0.055 }, 1.05, -6.0);
-        p.hair_light = of_hair(hair.l + 0.085, 1.05, 2.0);
+        // Dark hair shines more against itself.
+        p.hair_light = of_hair(hair.l + if hair.l < 0.33 { 0.105 } else { 0.085 }, 1.05, 2.0);
         p.hair_ink = of_hair((0.55 * hair.l).max(0.13), 0.9, -8.0);
         // On dark hair a darker strand cannot be seen.
         p.strand = if hair.l < 0.33 { p.hair_light } else { p.hair_shade };
@@ -216,7 +217,8 @@ fn drawn_lip(photo: Oklch, photo_skin: Oklch, skin: Oklch) -> Oklch {
 fn drawn_iris(photo: Oklch) -> Oklch {
     match photo.h {
         _ if photo.l < 0.335 => Oklch::new(0.33, 0.055, 48.0),
-        h if (35.0..85.0).contains(&h) && photo.c > 0.016 => Oklch::new(0.46, 0.06, h),
+        h if photo.l < 0.37 && (15.0..85.0).contains(&h) && photo.c > 0.005 => Oklch::new(0.36, 0.052, 50.0),
+        h if (35.0..85.0).contains(&h) && photo.c > if h < 70.0 { 0.011 } else { 0.016 } => Oklch::new(0.46, 0.06, h),
         h if (35.0..140.0).contains(&h) => Oklch::new(0.55, 0.04, 125.0),
         _ if photo.c < 0.01 => Oklch::new(0.58, 0.025, 225.0),
         _ => Oklch::new(0.60, 0.05, 235.0),

@@ -3,10 +3,12 @@
 //! All of it is made once a face; only the head's own move moves it.
 
 mod curl;
+mod mass;
 mod outline;
 mod rays;
 mod scalp;
 mod strand;
+mod tips;
 
 use super::style::HairCurve;
 use super::{Pen, at};
@@ -31,9 +33,11 @@ impl Hair {
     /// The hair of `face`, moved into the face frame by `place`. `points` are the face's as drawn.
     pub(super) fn new(face: &Face, kind: HairKind, curve: HairCurve, place: Affine, points: &Points) -> Self {
         let moved = |outline: &[Point]| -> Vec<Point> { outline.iter().map(|p| place * *p).collect() };
-        let curves = |outline: &[Point], scallop: f64| match kind {
-            HairKind::Curly => curl::scallops(&Contour::new(outline, HairCurve::Tufts).line, scallop),
-            _ => Contour::new(outline, curve),
+        let curves = |outline: &[Point], behind: bool| match kind {
+            HairKind::Curly => {
+                curl::scallops(&Contour::new(outline, HairCurve::Tufts, None).line, if behind { 17.0 } else { 15.0 })
+            }
+            _ => Contour::new(outline, curve, Some((points[P::P4_4].y, behind))),
         };
         let (mut front, mut back) = (Vec::new(), Vec::new());
         if !matches!(kind, HairKind::Bald | HairKind::Shaved) {
@@ -44,10 +48,10 @@ impl Hair {
                 // What starts below the ears' tops lies behind the head and belongs to the back alone.
                 let top = outline.iter().map(|p| p.y).fold(f64::MAX, f64::min);
                 if top <= ear + 8.0 {
-                    front.push(curves(&outline, 15.0));
+                    front.push(curves(&outline, false));
                 }
             }
-            back = face.hair.back.iter().filter(|o| o.len() > 2).map(|o| curves(&moved(o), 17.0)).collect();
+            back = face.hair.back.iter().filter(|o| o.len() > 2).map(|o| curves(&moved(o), true)).collect();
         }
         Self { kind, front, back }
     }
@@ -90,9 +94,13 @@ impl Hair {
             kind => strand::strands(pen, &rays, kind == HairKind::Wavy, strands),
         };
         if !pen.ink_only {
-            inside.splice(0..0, strand::shades(pen, &rays));
+            inside.splice(0..0, mass::shades(pen, &rays));
         }
-        let mut items = vec![Item::area("hair-front", whole.clone(), pen.palette.hair)];
+        let mut items = Vec::new();
+        if self.kind != HairKind::Curly && strands > 0.0 {
+            items.push(strand::loose(pen, &rays, strands));
+        }
+        items.push(Item::area("hair-front", whole.clone(), pen.palette.hair));
         items.push(Item::clipped("strands", whole, inside));
         items.extend(self.front.iter().map(|c| ring("hair-line", c, pen, 0.85)));
         items

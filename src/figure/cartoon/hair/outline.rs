@@ -1,5 +1,6 @@
 //! The outline of hair from the vertices that were found: few, smooth between them, and sharp where hair has tips.
 
+use super::tips::{domed, tipped};
 use crate::figure::cartoon::style::HairCurve;
 use crate::geometry::{BezPath, CubicBez, ParamCurve, PathEl, Point, Vec2, cut_corners, simplify};
 
@@ -24,9 +25,11 @@ pub(super) struct Contour {
 }
 
 impl Contour {
-    /// Through the vertices that matter of `outline`.
-    pub(super) fn new(outline: &[Point], curve: HairCurve) -> Self {
-        let vertices = simplify(outline, TOLERANCE, true);
+    /// Through the vertices that matter of `outline`. Its lower ends get `tips`, given the height of the
+    /// brows and whether it lies behind the head.
+    pub(super) fn new(outline: &[Point], curve: HairCurve, tips: Option<(f64, bool)>) -> Self {
+        let vertices = domed(&simplify(outline, TOLERANCE, true));
+        let vertices = tips.map_or_else(|| vertices.clone(), |(brows, behind)| tipped(&vertices, brows, behind));
         match curve {
             HairCurve::Tufts => tufts(&vertices),
             HairCurve::CornerCutting => {

@@ -11,17 +11,6 @@ use crate::geometry::{BezPath, Point, Vec2, brush_in_steps, equal_steps, flatten
 const FRINGE: f64 = 72.0;
 const FRINGE_RAYS: usize = 8;
 
-/// The soft shades: toward the face, and on the side away from the light.
-pub(super) fn shades(pen: &Pen, rays: &Rays) -> Vec<Item> {
-    let (crown, last, c) = (Rays::CROWN, rays.runs.len(), pen.palette.hair_shade);
-    let mut shade = Brushes::new(rays, 15.0);
-    shade.along((0.06, 0.0), crown + 3..last - 2, &[0.0, 1.0, 0.7, 0.0]);
-    shade.along((0.06, 0.0), 1..crown - 3, &[0.0, 1.0, 0.7, 0.0]);
-    let mut far = Brushes::new(rays, 12.0);
-    far.along((0.93, 0.95), 2..crown - 6, &[0.0, 1.0, 0.7, 0.0]);
-    vec![shade.item("hair-shade", c), far.item("hair-far", c.faded(0.9))]
-}
-
 /// Single strands and lights. `amount` is 0 for none to 1 for all.
 pub(super) fn strands(pen: &Pen, rays: &Rays, wavy: bool, amount: f64) -> Vec<Item> {
     let over_brow = (Rays::toward(45.0)..Rays::toward(140.0)).filter(|i| rays.depth(*i) > FRINGE);
@@ -29,43 +18,76 @@ pub(super) fn strands(pen: &Pen, rays: &Rays, wavy: bool, amount: f64) -> Vec<It
     if fringe.len() > FRINGE_RAYS { falling(pen, rays, &fringe, wavy, amount) } else { combed(pen, rays, amount) }
 }
 
-/// Hair away from the face: strands that keep their level between hairline and silhouette.
+/// Hair away from the face: strands that keep their level between hairline and silhouette, at uneven distances, since
+/// even ones look like a pleated curtain.
 fn combed(pen: &Pen, rays: &Rays, amount: f64) -> Vec<Item> {
-    const LIGHT: [f64; 4] = [0.0, 1.0, 0.8, 0.0];
-    const THIN: [f64; 4] = [0.0, 1.0, 0.6, 0.0];
-    let (c, last) = (Rays::CROWN, rays.runs.len());
+    let (crown, last) = (Rays::CROWN, rays.runs.len());
+    let mut dice = Dice(5);
+    let (mut thin, mut light) = (Brushes::new(rays, pen.ink), Brushes::new(rays, 4.0));
+    for side in [crown..last - 2, 2..crown] {
+        let left = side.start == crown;
+        let mut level = 0.10;
+        while level < 0.93 {
+            let z: [f64; 5] = std::array::from_fn(|_| dice.unit());
+            let (from, to) = reach(&side, left, z[0], z[1]);
+            let drift = 0.16 * (z[2] - 0.4);
+            if z[4] <= amount {
+                thin.width = pen.ink * (0.65 + 0.5 * z[3]);
+                thin.along((level, (level + drift).clamp(0.04, 0.95)), from..to, &[0.0, 1.0, 0.6, 0.0]);
+            }
+            level += 0.07 + 0.10 * z[3];
+        }
+        if pen.ink_only {
+            continue;
+        }
+        // The light is at the upper left: more of it, and wider, there.
+        let lights: &[(f64, f64, f64, f64)] = if left {
+            &[(0.74, 0.10, 0.44, 4.0), (0.66, 0.06, 0.50, 6.5), (0.57, 0.12, 0.42, 3.5), (0.47, 0.16, 0.36, 2.5)]
+        } else {
+            &[(0.68, 0.05, 0.30, 4.5), (0.58, 0.08, 0.24, 3.0)]
+        };
+        for (level, from, to, width) in lights {
+            light.width = *width;
+            let (a, b) = reach(&side, left, *from, 1.0 - *to);
+            light.along((*level, level + 0.03), a..b, &[0.0, 1.0, 0.8, 0.0]);
+        }
+    }
     let mut items = Vec::new();
     if !pen.ink_only {
-        let mut light = Brushes::new(rays, 1.0);
-        for (level, run, width) in [
-            (0.70, c + 4..c + 16, 5.0),
-            (0.62, c + 3..c + 18, 7.0),
-            (0.53, c + 5..c + 15, 4.0),
-            (0.66, c - 14..c - 4, 5.0),
-            (0.57, c - 12..c - 5, 3.0),
-        ] {
-            light.width = width;
-            light.along((level, level + 0.03), run, &LIGHT);
-        }
         items.push(light.item("hair-light", pen.palette.hair_light.faded(0.75)));
-    }
-    let mut thin = Brushes::new(rays, pen.ink);
-    let all = [
-        ((0.30, 0.42), c + 1..last - 6),
-        ((0.80, 0.72), c + 3..last - 4),
-        ((0.30, 0.42), 6..c - 1),
-        ((0.80, 0.72), 4..c - 3),
-        ((0.46, 0.58), c + 6..last - 2),
-        ((0.46, 0.58), 2..c - 6),
-        ((0.17, 0.22), c..c + 15),
-        ((0.17, 0.22), c - 15..c),
-    ];
-    let count = (all.len() as f64 * amount).round() as usize;
-    for (levels, run) in all.into_iter().take(count) {
-        thin.along(levels, run, &THIN);
     }
     items.push(thin.item("hair-strands", strand_colour(pen)));
     items
+}
+
+/// A part of a side of the head: it starts `skip` of the way from the crown and stops `short` of its end.
+fn reach(side: &std::ops::Range<usize>, left: bool, skip: f64, short: f64) -> (usize, usize) {
+    let length = side.len() as f64;
+    let (skip, short) = ((0.5 * skip * length) as usize, (0.55 * short * length) as usize);
+    if left { (side.start + skip, side.end - short) } else { (side.start + short, side.end - skip) }
+}
+
+/// Strands that have come loose over the crown: they leave the outline a little and come back to it.
+pub(super) fn loose(pen: &Pen, rays: &Rays, amount: f64) -> Item {
+    const COUNT: usize = 6;
+    let mut dice = Dice(13);
+    let mut all = Brushes::new(rays, 0.75 * pen.ink);
+    for k in 0..COUNT {
+        let z: [f64; 3] = std::array::from_fn(|_| dice.unit());
+        // From the right temple over the crown to the left one, one in each sixth.
+        let from = Rays::toward(28.0) + 5 * k + (4.0 * z[0]) as usize;
+        let run = from..from + 5 + (4.0 * z[1]) as usize;
+        let out = 1.02 + 0.022 * z[2];
+        let depth = run.clone().map(|i| rays.depth(i)).fold(f64::MAX, f64::min);
+        if z[2] > amount || depth < 12.0 {
+            continue;
+        }
+        // In shares of the hair's depth, so thin hair and thick hair alike stand off by a few units.
+        let off = (out - 1.0) * 150.0 / depth;
+        let levels = if k % 2 == 0 { (1.0 - 0.5 * off, 1.0 + off) } else { (1.0 + off, 1.0 - 0.5 * off) };
+        all.along(levels, run, &[0.2, 1.0, 0.8, 0.0]);
+    }
+    all.item("hair-loose", pen.palette.hair_ink)
 }
 
 /// Hair over the forehead: strands from the crown to the fringe, uneven as cut hair is.
