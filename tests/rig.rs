@@ -164,6 +164,30 @@ fn a_symmetric_face_is_left_alone_and_a_wry_one_keeps_a_third_of_its_wryness() {
 }
 
 #[test]
+fn no_bound_of_what_a_face_can_have_touches_a_measured_one() {
+    let plain =
+        Proportions { symmetry: 0.0, ear_symmetry: 0.0, eye_width: 1.0, eye_height: 1.0, ..Proportions::NORMAL };
+    for (name, points) in measured() {
+        let neutral = Neutral::of(&points, &plain);
+        let by = |p: P| neutral.points()[p] - points[p];
+        for p in P::fixed() {
+            use lianpu::face::Part;
+            // The rules of a face at rest move lids, brows, lips and chin up and down, and the middle of the lips to
+            // the mouth's own axis.
+            let free_x = [P::P8_9, P::P8_10, P::P8_1, P::P2_2, P::P2_3, P::P8_2].contains(&p);
+            let free_y = match p.part() {
+                Part::Brows => 25.0,
+                Part::Eyes | Part::Mouth => 6.0,
+                _ if p == P::P2_1 => 6.0,
+                _ => 1e-9,
+            };
+            assert!(free_x || by(p).x.abs() < 1e-9, "{name} {p} by {}", by(p));
+            assert!(by(p).y.abs() < free_y, "{name} {p} by {}", by(p));
+        }
+    }
+}
+
+#[test]
 fn eyes_are_drawn_larger_and_the_smallest_still_large_enough_to_blink() {
     let mut points = average_face::points();
     for (upper, lower, middle) in [(P::P3_2, P::P3_4, P::P3_6), (P::P3_1, P::P3_3, P::P3_5)] {
