@@ -92,8 +92,6 @@ pub struct Stage {
     pub scale: f64,
     /// Side of a descriptor's cell, in pupil distances.
     pub cell: f64,
-    /// The chip is cut anew, at the frame of the shape found so far.
-    pub anew: bool,
     /// What shortens a descriptor: a row for each number that is kept.
     pub basis: Matrix,
     /// What a descriptor is on average.
@@ -135,9 +133,20 @@ impl Stage {
         }
     }
 
+    /// What the first row of the first block says of a shape: how stages judge instead of move.
+    #[must_use]
+    pub fn judge(&self, chip: &Spread, shape: &[Point]) -> f32 {
+        let Some(block) = self.blocks.first() else { return 0.0 };
+        let mut short = Vec::new();
+        self.describe(chip, shape, &block.sites, &mut short);
+        let mut said = [block.bias[0]];
+        block.weights.times(&short, &mut said);
+        said[0]
+    }
+
     /// Into bytes.
     pub fn write(&self, out: &mut Writer) {
-        out.numbers(&[self.scale as f32, self.cell as f32, f32::from(u8::from(self.anew))]);
+        out.numbers(&[self.scale as f32, self.cell as f32]);
         out.matrix(&self.basis);
         out.numbers(&self.usual);
         out.count(self.blocks.len());
@@ -156,7 +165,7 @@ impl Stage {
     /// From bytes.
     pub fn read(bytes: &mut Reader) -> Option<Self> {
         let head = bytes.numbers()?;
-        let [scale, cell, anew] = head[..] else { return None };
+        let [scale, cell] = head[..] else { return None };
         let (basis, usual) = (bytes.matrix()?, bytes.numbers()?);
         let indices = |bytes: &mut Reader| Some(bytes.numbers()?.iter().map(|i| *i as usize).collect::<Vec<_>>());
         let blocks = (0..bytes.count()?)
@@ -169,6 +178,6 @@ impl Stage {
             .collect::<Option<Vec<_>>>()?;
         // Sizes are written with few digits so that they come back as they were.
         let exact = |v: f32| (f64::from(v) * 1e4).round() / 1e4;
-        Some(Self { scale: exact(scale), cell: exact(cell), anew: anew > 0.5, basis, usual, blocks })
+        Some(Self { scale: exact(scale), cell: exact(cell), basis, usual, blocks })
     }
 }

@@ -25,54 +25,46 @@ const STARTS: [[f64; 4]; 5] =
     [[0.0, 0.0, 0.0, 1.0], [0.06, 0.0, 0.05, 1.0], [-0.06, 0.0, -0.05, 1.0], [0.0, 0.06, 0.0, 1.06], [
         0.0, -0.06, 0.0, 0.94,
     ]];
-/// What is left of them when the chip is cut anew.
-const LATER: f64 = 0.4;
+/// What is left of them where the face is already known roughly.
+pub const CLOSE: f64 = 0.4;
 
 impl Fit {
-    /// Runs stages on a face that lies near `frame`. Known points pull the others after every stage.
+    /// The mean face at a frame.
     #[must_use]
-    pub fn run(model: &ShapeModel, stages: &[Stage], picture: &Pyramid, frame: Frame, known: &[Known]) -> Self {
-        let mut fit = Self { frame, shape: model.mean.clone(), spread: vec![0.0; model.count()] };
-        let mut chip: Option<Chip> = None;
-        let mut starts: Vec<Vec<Point>> = Vec::new();
-        let mut share = 1.0;
+    pub fn at(model: &ShapeModel, frame: Frame) -> Self {
+        Self { frame, shape: model.mean.clone(), spread: vec![0.0; model.count()] }
+    }
+
+    /// Runs stages, which look at one chip, from several starts round the shape; `share` is how far apart they are.
+    /// Known points pull the others after every stage.
+    #[must_use]
+    pub fn through(mut self, model: &ShapeModel, stages: &[Stage], picture: &Pyramid, known: &[Known], share: f64) -> Self {
+        let Some(first) = stages.first() else { return self };
+        let turn = model.frame_of(&self.shape);
+        self.shape.iter_mut().for_each(|p| *p = turn.undo(*p));
+        self.frame = self.frame.after(&turn);
+        let mut starts: Vec<_> = STARTS.iter().map(|s| jittered(&self.shape, s, share)).collect();
+        let chip = Chip::of(picture, &self.frame, first.scale);
+        let held: Vec<_> = known.iter().map(|(i, at, slack)| (*i, self.frame.undo(*at), *slack)).collect();
         for stage in stages {
-            if chip.is_none() || stage.anew {
-                fit.gather(&starts);
-                fit.straighten(model);
-                starts = STARTS.iter().map(|s| jittered(&fit.shape, s, share)).collect();
-                share = LATER;
-                chip = Some(Chip::of(picture, &fit.frame, stage.scale));
-            }
-            let Some(spread) = chip.as_ref().map(|c| c.spread(stage.cell)) else { continue };
-            let held: Vec<_> = known.iter().map(|(i, at, slack)| (*i, fit.frame.undo(*at), *slack)).collect();
+            let spread = chip.spread(stage.cell);
             for shape in &mut starts {
                 stage.step(model, &spread, shape);
                 *shape = model.given(shape, &held, 0.5);
             }
         }
-        fit.gather(&starts);
-        fit
+        self.gather(&starts);
+        self
     }
 
     /// Takes the middle of several shapes.
     fn gather(&mut self, starts: &[Vec<Point>]) {
         let n = starts.len() as f64;
-        if starts.is_empty() {
-            return;
-        }
         for (i, (point, spread)) in self.shape.iter_mut().zip(&mut self.spread).enumerate() {
             *point = (starts.iter().fold(crate::geometry::Vec2::ZERO, |s, shape| s + shape[i].to_vec2()) / n).to_point();
             let square = starts.iter().map(|shape| shape[i].distance_squared(*point)).sum::<f64>() / n;
             *spread = square.sqrt() as f32;
         }
-    }
-
-    /// Makes the frame that of the shape.
-    fn straighten(&mut self, model: &ShapeModel) {
-        let turn = model.frame_of(&self.shape);
-        self.shape.iter_mut().for_each(|p| *p = turn.undo(*p));
-        self.frame = self.frame.after(&turn);
     }
 
     /// The points in the photo.

@@ -7,6 +7,7 @@ mod fit;
 mod frame;
 mod model;
 mod pyramid;
+mod search;
 pub mod shape;
 pub mod weights;
 
@@ -14,3 +15,4 @@ pub use fit::{Fit, Known};
 pub use frame::Frame;
 pub use model::Model;
 pub use pyramid::Pyramid;
+pub use search::{Candidate, SMALLEST, WORKING_SIDE};

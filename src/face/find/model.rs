@@ -12,8 +12,12 @@ pub struct Model {
     pub detector: Detector,
     /// The shapes of faces.
     pub shapes: ShapeModel,
-    /// Finds their points.
-    pub stages: Vec<Stage>,
+    /// Lays a shape roughly on a face.
+    pub coarse: Vec<Stage>,
+    /// Lays it closely.
+    pub fine: Vec<Stage>,
+    /// Say whether what a shape lies on is a face, after the coarse and after the fine stages: above 0 it is.
+    pub judges: [Stage; 2],
 }
 
 /// The first bytes of learned numbers.
@@ -27,8 +31,10 @@ impl Model {
         out.count(MAGIC);
         self.detector.write(&mut out);
         self.shapes.write(&mut out);
-        out.count(self.stages.len());
-        self.stages.iter().for_each(|s| s.write(&mut out));
+        for stages in [&self.coarse[..], &self.fine, &self.judges] {
+            out.count(stages.len());
+            stages.iter().for_each(|s| s.write(&mut out));
+        }
         out.0
     }
 
@@ -41,7 +47,8 @@ impl Model {
         }
         let detector = Detector::read(&mut bytes)?;
         let shapes = ShapeModel::read(&mut bytes)?;
-        let stages = (0..bytes.count()?).map(|_| Stage::read(&mut bytes)).collect::<Option<_>>()?;
-        Some(Self { detector, shapes, stages })
+        let mut stages = || (0..bytes.count()?).map(|_| Stage::read(&mut bytes)).collect::<Option<Vec<_>>>();
+        let (coarse, fine, judges) = (stages()?, stages()?, stages()?);
+        Some(Self { detector, shapes, coarse, fine, judges: judges.try_into().ok()? })
     }
 }

@@ -24,7 +24,7 @@ impl Matrix {
     /// When the column is not as long as a row.
     pub fn times(&self, column: &[f32], out: &mut [f32]) {
         assert_eq!(column.len(), self.columns, "a column as long as a row");
-        for (o, row) in out.iter_mut().zip(self.values.chunks_exact(self.columns)) {
+        for (o, row) in out.iter_mut().zip(self.values.chunks_exact(self.columns.max(1))) {
             *o += dot(row, column);
         }
     }

@@ -4,20 +4,20 @@ use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
 use lianpu::face::find::channels::DESCRIPTOR;
 use lianpu::face::find::shape::ShapeModel;
 use lianpu::face::find::weights::Matrix;
-use lianpu::face::find::{Frame, Pyramid};
+use lianpu::face::find::Frame;
 use lianpu::geometry::{Point, Vec2};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::chance::Chance;
-use crate::photos::{Scheme, Shot};
+use crate::photos::Scheme;
+use crate::whole::Picture;
 use crate::ridge;
 
 /// How a stage is to be.
 pub struct Plan {
     pub scale: f64,
     pub cell: f64,
-    pub anew: bool,
     pub kept: usize,
     pub modes: usize,
     pub blocks: Vec<(Vec<usize>, Vec<usize>)>,
@@ -62,7 +62,7 @@ pub fn groups(scheme: &Scheme) -> Vec<(Vec<usize>, Vec<usize>)> {
 }
 
 /// Mean and modes of people's shapes.
-pub fn shapes(shots: &[&Shot], scheme: &Scheme, count: usize) -> ShapeModel {
+pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel {
     let names = [
         "3.12", "3.8", "3.6", "3.11", "3.7", "3.5", "9.2", "9.1", "9.4", "9.5", "9.15", "8.4", "8.3", "8.1", "4.2", "4.1",
     ];
@@ -73,7 +73,7 @@ pub fn shapes(shots: &[&Shot], scheme: &Scheme, count: usize) -> ShapeModel {
         let frame = Frame::of_pupils(p[pupils.0], p[pupils.1]);
         p.iter().map(|q| frame.undo(*q)).collect::<Vec<_>>()
     };
-    let mut aligned: Vec<Vec<Point>> = shots.iter().map(|s| own(&s.truth)).collect();
+    let mut aligned: Vec<Vec<Point>> = truths.iter().map(|t| own(t)).collect();
     let mut mean = Vec::new();
     for _ in 0..4 {
         let n = aligned.len() as f64;
@@ -152,18 +152,22 @@ pub fn shaken(model: &ShapeModel, truth: &[Point], chance: &mut Chance) -> Frame
     frame.after(&by)
 }
 
-/// Learns the stages. `pictures` are those that the samples name.
-pub fn cascade(model: &ShapeModel, pictures: &[Pyramid], mut samples: Vec<Sample>, plans: &[Plan], folds: usize) -> Vec<Stage> {
+/// Learns the coarse and the fine stages. `pictures` are those that the samples name.
+pub fn cascade(
+    model: &ShapeModel,
+    pictures: &[Picture],
+    mut samples: Vec<Sample>,
+    plans: &[Vec<Plan>; 2],
+    folds: usize,
+) -> [Vec<Stage>; 2] {
     let mut chance = Chance(7);
-    let mut stages: Vec<Stage> = Vec::new();
     let mut people: Vec<usize> = samples.iter().map(|s| s.person).collect();
     people.sort_unstable();
     people.dedup();
     let fold: Vec<usize> =
         samples.iter().map(|s| people.iter().position(|p| *p == s.person).expect("known") % folds).collect();
-    for plan in plans {
-        let begun = std::time::Instant::now();
-        if plan.anew {
+    std::array::from_fn(|part| {
+        if part > 0 {
             for sample in &mut samples {
                 let turn = model.frame_of(&sample.shape);
                 sample.shape.iter_mut().for_each(|p| *p = turn.undo(*p));
@@ -176,13 +180,20 @@ pub fn cascade(model: &ShapeModel, pictures: &[Pyramid], mut samples: Vec<Sample
                 sample.shape.iter_mut().for_each(|p| *p = by.apply(*p));
             }
         }
-        let before = error(&samples);
+        plans[part].iter().map(|plan| stage(model, pictures, &mut samples, plan, &fold)).collect()
+    })
+}
+
+/// Learns a stage and moves the samples as it would move people whom it has not seen.
+fn stage(model: &ShapeModel, pictures: &[Picture], samples: &mut [Sample], plan: &Plan, fold: &[usize]) -> Stage {
+        let begun = std::time::Instant::now();
+        let before = error(samples);
         // Long descriptors of every sample at every site.
         let sites = &plan.all_sites;
         let long: Vec<Vec<f32>> = samples
             .par_iter()
             .map(|s| {
-                let chip = Chip::of(&pictures[s.picture], &s.frame, plan.scale).spread(plan.cell);
+                let chip = Chip::of(&pictures[s.picture].pyramid, &s.frame, plan.scale).spread(plan.cell);
                 let mut out = vec![0.0; sites.len() * DESCRIPTOR];
                 for (site, part) in sites.iter().zip(out.chunks_exact_mut(DESCRIPTOR)) {
                     chip.describe(s.shape[*site], part);
@@ -194,7 +205,7 @@ pub fn cascade(model: &ShapeModel, pictures: &[Pyramid], mut samples: Vec<Sample
             long.iter().flat_map(|l| l.chunks_exact(DESCRIPTOR)).step_by(sites.len() * samples.len() / 20_000 + 1).collect();
         let rows = DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]);
         let (usual, basis, _) = ridge::directions(&rows, plan.kept);
-        let mut stage = Stage { scale: plan.scale, cell: plan.cell, anew: plan.anew, basis, usual, blocks: Vec::new() };
+        let mut stage = Stage { scale: plan.scale, cell: plan.cell, basis, usual, blocks: Vec::new() };
         let short: Vec<Vec<f32>> = long
             .par_iter()
             .map(|l| {
@@ -233,8 +244,10 @@ pub fn cascade(model: &ShapeModel, pictures: &[Pyramid], mut samples: Vec<Sample
                 };
                 (Moves::Points(points.clone()), DMatrix::from_fn(samples.len(), 2 * points.len(), to))
             };
-            let learned = ridge::learn(&features, &targets, &fold, &[0.003, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]);
-            penalties.push(learned.penalty);
+            let learned = ridge::learn(&features, &targets, fold, &[0.003, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]);
+            let mut own_penalties = learned.penalties.clone();
+            own_penalties.sort_by(f32::total_cmp);
+            penalties.push(own_penalties[own_penalties.len() / 2]);
             for (i, shape) in moved.iter_mut().enumerate() {
                 let by: Vec<f32> = learned.honest.row(i).iter().copied().collect();
                 match &moves {
@@ -251,13 +264,11 @@ pub fn cascade(model: &ShapeModel, pictures: &[Pyramid], mut samples: Vec<Sample
         for (sample, shape) in samples.iter_mut().zip(moved) {
             sample.shape = shape;
         }
-        stages.push(stage);
         println!(
-            "  stage {}: {:.2} % to {:.2} % by people unseen, penalties {penalties:?}, {:.1} s",
-            stages.len(), 100.0 * before, 100.0 * error(&samples), begun.elapsed().as_secs_f64()
+            "  stage {} {}: {:.2} % to {:.2} % by people unseen, penalties {penalties:?}, {:.1} s",
+            plan.scale, plan.cell, 100.0 * before, 100.0 * error(samples), begun.elapsed().as_secs_f64()
         );
-    }
-    stages
+        stage
 }
 
 /// Mean distance from the truth, in pupil distances.

@@ -9,7 +9,7 @@ pub struct Ridge {
     pub weights: Matrix,
     pub bias: Vec<f32>,
     pub honest: DMatrix<f32>,
-    pub penalty: f32,
+    pub penalties: Vec<f32>,
 }
 
 /// Learns `targets` (a row a sample) from `features` (a row a sample). `folds` says which share of the people a sample
@@ -41,28 +41,43 @@ pub fn learn(features: &DMatrix<f32>, targets: &DMatrix<f32>, folds: &[usize], p
                 honest.row_mut(*i).copy_from(&said.row(row));
             }
         }
-        let error = (&honest - &t).norm_squared();
-        (error, honest)
+        honest
     };
-    let mut best: Option<(f32, f32, DMatrix<f32>)> = None;
+    // Of each number that is to be said, by itself.
+    let mut best: Vec<(f32, f32)> = vec![(f32::INFINITY, 0.0); t.ncols()];
+    let mut honest = DMatrix::zeros(n, t.ncols());
     for penalty in penalties {
-        let (error, honest) = predict(*penalty);
-        if best.as_ref().is_none_or(|b| error < b.0) {
-            best = Some((error, *penalty, honest));
+        let said = predict(*penalty);
+        for (column, best) in best.iter_mut().enumerate() {
+            let error = (said.column(column) - t.column(column)).norm_squared();
+            if error < best.0 {
+                *best = (error, *penalty);
+                honest.column_mut(column).copy_from(&said.column(column));
+            }
         }
     }
-    let (_, penalty, mut honest) = best.expect("there are penalties");
     honest.row_iter_mut().for_each(|mut r| r += &tm);
-    let mut a = gram;
-    (0..n).for_each(|i| a[(i, i)] += penalty * unit);
-    let weights = f.transpose() * solve(a, t);
+    let mut dual = DMatrix::zeros(n, t.ncols());
+    for penalty in penalties {
+        let columns: Vec<usize> = (0..best.len()).filter(|c| best[*c].1 == *penalty).collect();
+        if columns.is_empty() {
+            continue;
+        }
+        let mut a = gram.clone();
+        (0..n).for_each(|i| a[(i, i)] += penalty * unit);
+        let solved = solve(a, t.select_columns(&columns));
+        for (i, column) in columns.iter().enumerate() {
+            dual.column_mut(*column).copy_from(&solved.column(i));
+        }
+    }
+    let weights = f.transpose() * dual;
     let bias = &tm - &fm * &weights;
     let values = (0..weights.ncols()).flat_map(|o| weights.column(o).iter().copied().collect::<Vec<_>>()).collect();
     Ridge {
         weights: Matrix { rows: weights.ncols(), columns: weights.nrows(), values },
         bias: bias.iter().copied().collect(),
         honest,
-        penalty,
+        penalties: best.iter().map(|b| b.1).collect(),
     }
 }
 

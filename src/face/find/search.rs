@@ -1,0 +1,86 @@
+//! From a photo to the faces in it: windows, rough fits, judged; then close fits, judged again.
+
+use super::cascade::Chip;
+use super::detector::BELOW;
+use super::fit::{CLOSE, Fit, Known};
+use super::{Frame, Model, Pyramid};
+use crate::geometry::Point;
+use crate::photo::Photo;
+
+/// The longer side of the copy of a photo in which faces are looked for.
+pub const WORKING_SIDE: usize = 640;
+/// The smallest pupil distance that is looked for, in pixels of that copy.
+pub const SMALLEST: f64 = 20.0;
+/// Windows below this sum are not looked at closer. Cross-validated, faces have 2 and more.
+const LEAST: f32 = -1.0;
+/// So many windows are.
+const MOST: usize = 6;
+
+/// A fit and what the two judges say of it.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The shape.
+    pub fit: Fit,
+    /// The detector's sum.
+    pub window: f32,
+    /// The judge's after the coarse stages.
+    pub rough: f32,
+    /// The judge's after the fine stages.
+    pub close: f32,
+}
+
+impl Model {
+    /// Rough fits of what may be faces, the best first, no two on one place.
+    #[must_use]
+    pub fn candidates(&self, picture: &Pyramid, known: &[Known]) -> Vec<Candidate> {
+        let hits = self.detector.scan(picture, SMALLEST * picture.step(), LEAST);
+        let mut found: Vec<Candidate> =
+            hits.iter().take(MOST).map(|h| self.roughly(picture, h.frame, h.score, known)).collect();
+        found.sort_by(|a, b| b.rough.total_cmp(&a.rough));
+        let mut kept: Vec<Candidate> = Vec::new();
+        for candidate in found {
+            if kept.iter().all(|k| apart(&k.fit.frame, &candidate.fit.frame)) {
+                kept.push(candidate);
+            }
+        }
+        kept
+    }
+
+    /// The rough fit from a frame.
+    #[must_use]
+    pub fn roughly(&self, picture: &Pyramid, frame: Frame, window: f32, known: &[Known]) -> Candidate {
+        let fit = Fit::at(&self.shapes, frame).through(&self.shapes, &self.coarse, picture, known, 1.0);
+        let rough = self.judged(0, picture, &fit);
+        Candidate { fit, window, rough, close: f32::NEG_INFINITY }
+    }
+
+    /// The close fit after a rough one, in the photo itself.
+    #[must_use]
+    pub fn closely(&self, photo: &Photo, rough: &Candidate, known: &[Known]) -> Candidate {
+        let picture = Pyramid::round_face(photo, &rough.fit.frame, self.fine[0].scale);
+        self.closely_in(&picture, rough, known)
+    }
+
+    /// The close fit after a rough one.
+    #[must_use]
+    pub fn closely_in(&self, picture: &Pyramid, rough: &Candidate, known: &[Known]) -> Candidate {
+        let fit = rough.fit.clone().through(&self.shapes, &self.fine, picture, known, CLOSE);
+        let close = self.judged(1, picture, &fit);
+        Candidate { fit, close, ..*rough }
+    }
+
+    /// What a judge says of a fit. It sees the face upright and of the size that the fit says.
+    fn judged(&self, judge: usize, picture: &Pyramid, fit: &Fit) -> f32 {
+        let judge = &self.judges[judge];
+        let turn = self.shapes.frame_of(&fit.shape);
+        let shape: Vec<Point> = fit.shape.iter().map(|p| turn.undo(*p)).collect();
+        let chip = Chip::of(picture, &fit.frame.after(&turn), judge.scale).spread(judge.cell);
+        judge.judge(&chip, &shape)
+    }
+}
+
+/// Whether two frames are of different faces.
+fn apart(a: &Frame, b: &Frame) -> bool {
+    let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
+    middle(a).distance(middle(b)) > 0.9 * a.scale().max(b.scale())
+}

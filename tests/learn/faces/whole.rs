@@ -1,0 +1,239 @@
+//! Learning everything from the photos of some people.
+
+use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
+use lianpu::face::find::channels::DESCRIPTOR;
+use lianpu::face::find::weights::Matrix;
+use lianpu::face::find::{Candidate, Fit, Frame, Model, Pyramid};
+use lianpu::geometry::Point;
+use lianpu::photo::Plane;
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use crate::chance::Chance;
+use crate::photos::{Scheme, Shot, varied};
+use crate::points::{self, Plan, Sample};
+use crate::windows::{self, Scene};
+use crate::{others, ridge};
+
+/// Variants of each neutral photo: as it is; in other light; in other light and turned a little.
+pub const VARIANTS: usize = 3;
+
+/// A picture to learn from.
+pub struct Picture {
+    pub pyramid: Pyramid,
+    pub person: usize,
+    /// Empty where it is not known or there is no face.
+    pub truth: Vec<Point>,
+}
+
+/// All pictures that any fold may learn from, made once.
+pub struct Material {
+    pub scheme: Scheme,
+    pub neutral: Vec<Shot>,
+    pub smiling: Vec<Shot>,
+    pub faces: Vec<Picture>,
+    pub smiles: Vec<Picture>,
+    /// Without a face, or with one that is turned away; drawn ones belong to nobody (person 0).
+    pub without: Vec<Picture>,
+}
+
+impl Material {
+    pub fn new(scheme: Scheme, neutral: Vec<Shot>, smiling: Vec<Shot>) -> Self {
+        let pupils = (scheme.index("3.6"), scheme.index("3.5"));
+        let frame = |truth: &[Point]| Frame::of_pupils(truth[pupils.0], truth[pupils.1]);
+        let faces = (0..neutral.len() * VARIANTS)
+            .into_par_iter()
+            .map(|i| {
+                let (shot, variant) = (&neutral[i / VARIANTS], i % VARIANTS);
+                let mut chance = Chance(i as u64 * 77 + 5);
+                let person = shot.person;
+                if variant < 2 {
+                    return Picture { pyramid: varied(&shot.photo, variant, &mut chance), person, truth: shot.truth.clone() };
+                }
+                let yaw = chance.between(0.06, 0.36) * if chance.share() < 0.5 { -1.0 } else { 1.0 };
+                let (photo, truth) = others::turned(&shot.photo, &frame(&shot.truth), yaw, &shot.truth);
+                Picture { pyramid: varied(&photo, variant, &mut chance), person, truth }
+            })
+            .collect();
+        let smiles = smiling
+            .par_iter()
+            .enumerate()
+            .map(|(i, s)| {
+                let pyramid = varied(&s.photo, i / 2 % 2, &mut Chance(i as u64 * 3 + 50_000));
+                Picture { pyramid, person: s.person, truth: Vec::new() }
+            })
+            .collect();
+        let mut without: Vec<Picture> = (0..90)
+            .into_par_iter()
+            .map(|i| {
+                let mut chance = Chance(i as u64 + 9_000);
+                let plane = others::drawn(i, 420, &mut chance);
+                Picture { pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN), person: 0, truth: Vec::new() }
+            })
+            .collect();
+        let torn = neutral.par_iter().chain(&smiling).enumerate().flat_map_iter(|(i, shot)| {
+            let mut chance = Chance(i as u64 + 30_000);
+            let mut planes: Vec<Plane> = Vec::new();
+            let plane = Plane::luma(&shot.photo);
+            match i % 4 {
+                0 => planes.push(others::quarters(&plane, 2)),
+                1 => planes.push(others::quarters(&plane, 1 + 2 * chance.below(2))),
+                2 => {
+                    let tile = 40 + chance.below(90);
+                    planes.push(others::shuffled(&plane, tile, &mut chance));
+                }
+                _ => {}
+            }
+            if !shot.truth.is_empty() && i % 2 == usize::from(i / 2 % 2 == 0) {
+                let yaw = chance.between(0.95, 1.45) * if chance.share() < 0.5 { -1.0 } else { 1.0 };
+                planes.push(Plane::luma(&others::turned(&shot.photo, &frame(&shot.truth), yaw, &[]).0));
+            }
+            let person = shot.person;
+            planes.into_iter().map(move |plane| Picture { pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN), person, truth: Vec::new() })
+        });
+        without.extend(torn.collect::<Vec<_>>());
+        Self { scheme, neutral, smiling, faces, smiles, without }
+    }
+}
+
+pub fn plans(scheme: &Scheme) -> [Vec<Plan>; 2] {
+    let all: Vec<usize> = (0..scheme.of.len()).collect();
+    let stage = |scale, cell, kept, modes, blocks| Plan { scale, cell, kept, modes, blocks, all_sites: all.clone() };
+    [
+        vec![stage(24.0, 0.25, 24, 16, vec![]), stage(24.0, 0.17, 24, 24, vec![])],
+        vec![
+            stage(60.0, 0.13, 24, 28, vec![]),
+            stage(60.0, 0.10, 24, 32, vec![]),
+            stage(60.0, 0.08, 32, 32, points::groups(scheme)),
+        ],
+    ]
+}
+
+/// Learns from the people for whom `of` says so.
+pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sync) -> Model {
+    let scheme = &material.scheme;
+    let begun = std::time::Instant::now();
+    let shapes = points::shapes(&material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(), scheme, 32);
+    let mut chance = Chance(99);
+    let mut samples = Vec::new();
+    for (i, picture) in material.faces.iter().enumerate().filter(|(_, p)| of(p.person)) {
+        for _ in 0..starts {
+            let frame = points::shaken(&shapes, &picture.truth, &mut chance);
+            samples.push(Sample { picture: i, person: picture.person, frame, shape: shapes.mean.clone(), truth: picture.truth.clone() });
+        }
+    }
+    let [coarse, fine] = points::cascade(&shapes, &material.faces, samples, &plans(scheme), 5);
+    println!("  points: {:.1} s", begun.elapsed().as_secs_f64());
+
+    // Where the smiling faces are: near where the same person's neutral face is, then as the cascade says.
+    let begun = std::time::Instant::now();
+    let places: Vec<Option<Frame>> = material
+        .smiling
+        .iter()
+        .zip(&material.smiles)
+        .map(|(shot, picture)| {
+            let twin = material.neutral.iter().find(|n| n.person == shot.person && n.mirrored == shot.mirrored)?;
+            let fit = Fit::at(&shapes, shapes.frame_of(&twin.truth));
+            let fit = fit.through(&shapes, &coarse, &picture.pyramid, &[], 1.0);
+            of(shot.person).then(|| shapes.frame_of(&fit.places()))
+        })
+        .collect();
+    let mut scenes: Vec<Scene> = Vec::new();
+    for picture in material.faces.iter().filter(|p| of(p.person)) {
+        scenes.push(Scene { picture: &picture.pyramid, face: Some(shapes.frame_of(&picture.truth)) });
+    }
+    for (picture, place) in material.smiles.iter().zip(&places) {
+        if let Some(frame) = place {
+            scenes.push(Scene { picture: &picture.pyramid, face: Some(*frame) });
+        }
+    }
+    for picture in material.without.iter().filter(|p| p.person == 0 || of(p.person)) {
+        scenes.push(Scene { picture: &picture.pyramid, face: None });
+    }
+    let detector = windows::learn(&scenes, 2);
+    println!("  detector: {:.1} s", begun.elapsed().as_secs_f64());
+
+    let begun = std::time::Instant::now();
+    let silent = |like: &Stage| {
+        let blocks = vec![Block { sites: vec![], moves: Moves::Modes, weights: Matrix { rows: 1, columns: 0, values: vec![] }, bias: vec![0.0] }];
+        Stage { blocks, ..like.clone() }
+    };
+    let judges = [silent(&coarse[1]), silent(&fine[0])];
+    let mut model = Model { detector, shapes, coarse, fine, judges };
+    let seen: Vec<(usize, bool, [Candidate; 2])> = scenes
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, scene)| {
+            let near = |c: &Candidate, f: &Frame| {
+                let (a, b) = (&c.fit.frame, f);
+                a.origin.distance(b.origin) < 0.2 * b.scale() && (0.8..1.25).contains(&(a.scale() / b.scale()))
+            };
+            let mut found = Vec::new();
+            let both = |rough: Candidate| [model.closely_in(scene.picture, &rough, &[]), rough];
+            for candidate in model.candidates(scene.picture, &[]) {
+                match &scene.face {
+                    Some(face) if near(&candidate, face) => found.push((i, true, both(candidate))),
+                    Some(face) if candidate.fit.frame.origin.distance(face.origin) < 0.5 * face.scale() => {}
+                    _ => found.push((i, false, both(candidate))),
+                }
+            }
+            if let Some(face) = &scene.face {
+                // Fits from the true place, tilted, and lost ones, which start far off.
+                let mut chance = Chance(i as u64 + 70_000);
+                let by = Frame::new(Point::new(chance.normal() * 0.07, chance.normal() * 0.07), (chance.normal() * 0.08).exp(), chance.normal() * 0.09);
+                let good = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
+                if near(&good, face) {
+                    found.push((i, true, both(good)));
+                }
+                let angle = chance.between(0.0, 6.28);
+                let far = chance.between(0.5, 1.0);
+                let by = Frame::new(Point::new(angle.cos() * far, angle.sin() * far), (chance.normal() * 0.3).exp(), chance.normal() * 0.2);
+                let bad = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
+                if !near(&bad, face) && bad.fit.frame.origin.distance(face.origin) > 0.25 * face.scale() {
+                    found.push((i, false, both(bad)));
+                }
+            }
+            found
+        })
+        .collect();
+    let count = seen.iter().filter(|s| s.1).count();
+    println!("  judges from {count} faces and {} others", seen.len() - count);
+    let sites: Vec<usize> = (0..scheme.of.len()).filter(|i| scheme.groups.get(*i).is_none_or(|g| g != "ear")).collect();
+    for which in [0, 1] {
+        let judge = &model.judges[which];
+        let long: Vec<Vec<f32>> = seen
+            .par_iter()
+            .map(|(scene, _, fits)| {
+                let fit = &fits[1 - which].fit;
+                let turn = model.shapes.frame_of(&fit.shape);
+                let chip = Chip::of(scenes[*scene].picture, &fit.frame.after(&turn), judge.scale).spread(judge.cell);
+                let mut out = vec![0.0; sites.len() * DESCRIPTOR];
+                for (site, part) in sites.iter().zip(out.chunks_exact_mut(DESCRIPTOR)) {
+                    chip.describe(turn.undo(fit.shape[*site]), part);
+                }
+                out
+            })
+            .collect();
+        const KEPT: usize = 16;
+        let some: Vec<&[f32]> = long.iter().flat_map(|l| l.chunks_exact(DESCRIPTOR)).step_by(long.len() * sites.len() / 20_000 + 1).collect();
+        let (usual, basis, _) = ridge::directions(&DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]), KEPT);
+        let short = |l: &Vec<f32>| {
+            let mut out = vec![0.0; sites.len() * KEPT];
+            for (place, part) in l.chunks_exact(DESCRIPTOR).zip(out.chunks_exact_mut(KEPT)) {
+                let off: Vec<f32> = place.iter().zip(&usual).map(|(v, m)| v - m).collect();
+                basis.times(&off, part);
+            }
+            out
+        };
+        let rows = |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
+        let (weights, bias) = windows::logistic(&rows(true), &rows(false), 1e-3);
+        let columns = weights.len();
+        let block = Block { sites: sites.clone(), moves: Moves::Modes, weights: Matrix { rows: 1, columns, values: weights }, bias: vec![bias] };
+        let judge = &mut model.judges[which];
+        judge.basis = basis;
+        judge.usual = usual;
+        judge.blocks = vec![block];
+    }
+    println!("  judges: {:.1} s", begun.elapsed().as_secs_f64());
+    model
+}
