@@ -6,9 +6,13 @@ mod test_data;
 
 use std::path::{Path, PathBuf};
 
+use lianpu::drawing::Drawing;
 use lianpu::face::{FeaturePoint, thesis};
-use lianpu::geometry::Point;
+use lianpu::geometry::{Point, Vec2};
 use lianpu::photo::{Photo, Stages};
+use lianpu::plot;
+use lianpu::render::{Painter, to_svg, uncovered_in};
+use rayon::prelude::*;
 
 /// The files of a folder of test data whose names end so, in order.
 fn files(folder: &str, end: &str) -> Vec<PathBuf> {
@@ -46,49 +50,36 @@ fn asf_eyes(photo: &Path, size: (f64, f64)) -> [Point; 2] {
     sums.map(|(x, y, n)| Point::new(x / n, y / n))
 }
 
-/// The share of photos whose eyes are found within 0.10 and within 0.15 pupil distances.
-fn eye_pairs(photos: &[(Photo, [Point; 2])]) -> [f64; 2] {
-    let errors: Vec<f64> = photos
-        .iter()
-        .map(|(photo, truth)| {
-            let stages = Stages::of(photo);
-            stages.located.as_ref().map_or(f64::INFINITY, |l| {
-                let off = |eye: Point, truth: Point| stages.to_photo(eye).distance(truth);
-                off(l.eyes.left.centre, truth[0]).max(off(l.eyes.right.centre, truth[1])) / truth[0].distance(truth[1])
-            })
-        })
-        .collect();
-    [0.10, 0.15].map(|limit| errors.iter().filter(|e| **e <= limit).count() as f64 / errors.len() as f64)
+/// How far off the worse eye is, in pupil distances; infinite where no pair was found.
+fn eye_error(stages: &Stages, truth: [Point; 2]) -> f64 {
+    stages.located.as_ref().map_or(f64::INFINITY, |l| {
+        let off = |eye: Point, truth: Point| stages.to_photo(eye).distance(truth);
+        off(l.eyes.left.centre, truth[0]).max(off(l.eyes.right.centre, truth[1])) / truth[0].distance(truth[1])
+    })
 }
 
-fn london() -> Vec<(Photo, Vec<Point>)> {
-    files("faces/london", "_neutral.jpg").iter().map(|p| (Photo::read(p).unwrap(), pts(p))).collect()
+/// The shares of errors within 0.10 and within 0.15, in hundredths.
+fn within(name: &str, errors: &[f64]) -> [f64; 2] {
+    let share = |limit: f64| 100.0 * errors.iter().filter(|e| **e <= limit).count() as f64 / errors.len() as f64;
+    let shares = [0.10, 0.15].map(share);
+    println!("{name}: {} photos, within 0.10 {:.1} %, within 0.15 {:.1} %", errors.len(), shares[0], shares[1]);
+    shares
 }
 
 #[test]
-fn the_eye_pair_is_found_as_often_as_the_thesis_finds_it() {
-    let london: Vec<_> = london().into_iter().map(|(photo, p)| (photo, [p[0], p[1]])).collect();
-    let imm: Vec<_> = files("faces/imm240", "-1m.jpg")
-        .into_iter()
-        .chain(files("faces/imm240", "-1f.jpg"))
-        .map(|path| {
-            let photo = Photo::read(&path).unwrap();
-            let eyes = asf_eyes(&path, (photo.width() as f64, photo.height() as f64));
-            (photo, eyes)
-        })
-        .collect();
-    if london.is_empty() || imm.is_empty() {
+fn the_eye_pair_of_the_imm_photos_is_found_as_often_as_the_thesis_finds_it() {
+    let mut photos = files("faces/imm240", "-1m.jpg");
+    photos.extend(files("faces/imm240", "-1f.jpg"));
+    if photos.is_empty() {
         return;
     }
-    for (name, photos) in [("london", &london), ("imm240", &imm)] {
-        let [tight, wide] = eye_pairs(photos);
-        println!(
-            "{name}: {} photos, within 0.10 {:.1} %, within 0.15 {:.1} %",
-            photos.len(),
-            100.0 * tight,
-            100.0 * wide
-        );
-    }
+    let error = |path: &PathBuf| {
+        let photo = Photo::read(path).unwrap();
+        eye_error(&Stages::of(&photo), asf_eyes(path, (photo.width() as f64, photo.height() as f64)))
+    };
+    let [tight, wide] = within("imm240", &photos.par_iter().map(error).collect::<Vec<_>>());
+    // 60 and 65 of a hundred when it was written; one photo is 5.
+    assert!(tight >= 50.0 && wide >= 55.0);
 }
 
 /// Which of London's 189 points score which of ours, and in which group.
@@ -103,32 +94,78 @@ fn london_table() -> Vec<(FeaturePoint, Vec<usize>, String)> {
     text.lines().skip(1).map(row).collect()
 }
 
+const GROUPS: [&str; 6] = ["brow", "eye", "nose", "mouth", "contour", "ear"];
+
+/// The error of every point that has a truth, in pupil distances, with its group.
+fn point_errors(stages: &Stages, truth: &[Point], table: &[(FeaturePoint, Vec<usize>, String)]) -> Vec<(usize, f64)> {
+    let Some(points) = thesis::points(stages) else { return Vec::new() };
+    let error = |(point, at, group): &(FeaturePoint, Vec<usize>, String)| {
+        let sum = at.iter().fold(Vec2::ZERO, |s, i| s + truth[*i].to_vec2());
+        let off = points[point.index()].at.distance((sum / at.len() as f64).to_point());
+        (GROUPS.iter().position(|g| g == group).unwrap(), off / truth[0].distance(truth[1]))
+    };
+    table.iter().map(error).collect()
+}
+
 #[test]
-fn the_thesiss_points_lie_as_near_as_they_were_measured_to() {
+fn eyes_and_points_of_the_london_photos_are_found_as_well_as_the_thesis_finds_them() {
+    let photos = files("faces/london", "_neutral.jpg");
     let table = london_table();
-    let photos = london();
-    if table.is_empty() || photos.is_empty() {
+    if photos.is_empty() || table.is_empty() {
         return;
     }
-    let groups = ["brow", "eye", "nose", "mouth", "contour", "ear"];
-    let mut errors = vec![vec![Vec::new(); groups.len()]; 2];
-    for (photo, truth) in &photos {
-        for (way, errors) in errors.iter_mut().enumerate() {
-            let stages = if way == 0 { Stages::of(photo) } else { Stages::with_eyes(photo, truth[0], truth[1]) };
-            let Some(points) = thesis::points(&stages) else { continue };
-            for (point, at, group) in &table {
-                let sum = at.iter().fold(lianpu::geometry::Vec2::ZERO, |s, i| s + truth[*i].to_vec2());
-                let wanted = (sum / at.len() as f64).to_point();
-                let error = points[point.index()].at.distance(wanted) / truth[0].distance(truth[1]);
-                errors[groups.iter().position(|g| g == group).unwrap()].push(error);
-            }
-        }
-    }
-    for (way, errors) in ["eyes as printed", "true eyes"].iter().zip(&mut errors) {
-        for (group, errors) in groups.iter().zip(errors) {
+    let one = |path: &PathBuf| {
+        let truth = pts(path);
+        let stages = Stages::of(&Photo::read(path).unwrap());
+        let error = eye_error(&stages, [truth[0], truth[1]]);
+        let printed = point_errors(&stages, &truth, &table);
+        (error, [printed, point_errors(&stages.seen_from(truth[0], truth[1]), &truth, &table)])
+    };
+    let found: Vec<_> = photos.par_iter().map(one).collect();
+    let [tight, wide] = within("london", &found.iter().map(|f| f.0).collect::<Vec<_>>());
+    // 49 and 63 of a hundred when it was written; one photo is 1.4.
+    assert!(tight >= 45.0 && wide >= 59.0);
+
+    // Means with the eyes of the truth when it was written, and a tenth more.
+    let limits = [0.139, 0.029, 0.120, 0.103, 0.242, 0.20];
+    for (way, name) in ["eyes as printed", "true eyes"].into_iter().enumerate() {
+        for (group, limit) in limits.iter().enumerate() {
+            let of_group = |f: &(f64, [Vec<(usize, f64)>; 2])| f.1[way].clone().into_iter().filter(|e| e.0 == group);
+            let mut errors: Vec<f64> = found.iter().flat_map(of_group).map(|e| e.1).collect();
             errors.sort_by(f64::total_cmp);
             let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-            println!("{way}, {group}: {} points, mean {mean:.3}, median {:.3}", errors.len(), errors[errors.len() / 2]);
+            let median = errors[errors.len() / 2];
+            println!("{name}, {}: {} points, mean {mean:.3}, median {median:.3}", GROUPS[group], errors.len());
+            assert!(way == 0 || mean <= *limit, "{}", GROUPS[group]);
         }
     }
+}
+
+/// A photo's stages can all be drawn, each with its caption, and so can its points, with and without names.
+#[test]
+fn every_stage_of_a_real_photo_is_drawn() {
+    let Some(path) = test_data::find("faces/london/001_neutral.jpg") else { return };
+    let photo = Photo::read(&path).unwrap();
+    let stages = Stages::of(&photo);
+    let parts = plot::stages(&stages);
+    assert_eq!(parts.len(), 16);
+    let mut painter = Painter::new(300, 300).unwrap();
+    let mut seen = std::collections::BTreeSet::new();
+    for (caption, drawing) in &parts {
+        assert!(caption.contains(": ") && caption.len() < 160, "{caption}");
+        assert_eq!(uncovered_in(drawing), None);
+        let picture = painter.paint(drawing);
+        let colours: std::collections::BTreeSet<&[u8]> = picture.rgba.chunks_exact(4).collect();
+        assert!(colours.len() > 1, "{caption}: empty");
+        assert!(seen.insert(picture.rgba), "{caption}: as another");
+    }
+    let sheet = plot::sheet(&parts, 5);
+    assert_eq!(uncovered_in(&sheet), None);
+
+    let points = thesis::points(&stages).unwrap();
+    let list: Vec<_> = FeaturePoint::fixed().map(|p| (p, points[p.index()])).collect();
+    let plain = plot::points_over(&photo, &list, &[], false);
+    let named = plot::points_over(&photo, &list, &[], true);
+    let texts = |d: &Drawing| to_svg(d, 900, 1000).matches("<text").count();
+    assert_eq!(texts(&named), texts(&plain) + 47);
 }

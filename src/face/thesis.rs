@@ -198,16 +198,34 @@ fn face(set: &mut Set<'_>, located: &Located) {
     set.found_or(P::P2_14, jaw.map(|j| j.0), narrow(cheeks.left));
     set.found_or(P::P2_13, jaw.map(|j| j.1), narrow(cheeks.right));
 
-    for (temple, jaw) in [(P::P11_2, P::P2_14), (P::P11_3, P::P2_13)] {
+    for (temple, jaw, out) in [(P::P11_2, P::P2_14, -1.0), (P::P11_3, P::P2_13, 1.0)] {
         let (x, y) = (set.at(jaw).x, middle.y + d / 2.0);
         let walk = (0..(2.0 * d) as usize).map(|k| y - k as f64);
-        // The walk starts in the face and ends where hair or the wall begins.
+        // The walk starts in the face and ends where the sideburn or the wall begins.
         let end = walk.skip_while(|y| !inside(x, *y)).find(|y| !inside(x, *y));
-        set.found_or(temple, end.map(|y| Point::new(x, y)), Point::new(x, middle.y - 0.5 * d));
+        let corner = end.and_then(|y| hairline_corner(face, located, y, out));
+        set.found_or(temple, corner, Point::new(middle.x + 0.75 * out * d, middle.y - 0.7 * d));
     }
 
     let top = top_of(face, located);
     set.found_or(P::P11_1, top, middle - Vec2::new(0.0, d));
+}
+
+/// The corner of the hairline, where forehead meets temple: of the face's outline above the end of the walk from the
+/// jaw, and above the brows, the place farthest up and out at once. `out` is the side, −1 at the image's left.
+fn hairline_corner(face: &Mask, located: &Located, walk: f64, out: f64) -> Option<Point> {
+    let middle = located.eyes.middle();
+    let from = walk.min(located.edges.divisions.brow_eye);
+    let rows = (0..located.eyes.distance() as usize).map(|k| from - k as f64);
+    let outline = rows.filter_map(|y| {
+        let columns = (0..(1.3 * located.eyes.distance()) as usize).map(|k| middle.x + out * k as f64);
+        let last = columns.take_while(|x| face.at(x.round() as isize, y.round() as isize)).last()?;
+        Some(Point::new(last, y))
+    });
+    outline.max_by(|a, b| {
+        let reach = |p: &Point| out * (p.x - middle.x) - p.y;
+        reach(a).total_cmp(&reach(b))
+    })
 }
 
 /// The mean place of the topmost rows of the face's region, of what hangs together upward from the brows between the

@@ -31,8 +31,11 @@ pub struct Ear {
 const NEAR: (f64, f64) = (0.75, 1.30);
 /// Smaller specks than this, in d × d, are no ear; one seen from the front has some 0.1.
 const LEAST_EAR: f64 = 0.008;
-/// The widest and the highest ear, in d: what is larger is hair of the face's hue, or a wall.
-const LARGEST_EAR: (f64, f64) = (0.40, 1.05);
+/// Where ears are looked for: above and below the eye line, and outward from the cheek, in d. Beyond lies hair, much of
+/// which has the face's hue.
+const EARS: (f64, f64, f64) = (0.30, 0.80, 0.36);
+/// What fills more of that place than this share is a wall or hair, not an ear.
+const FULLEST_EAR: f64 = 0.75;
 
 impl Cheeks {
     /// From F_final. The rows of the 2d × 2d square are counted, so that neck and shoulders are not; both sides are
@@ -54,11 +57,11 @@ impl Cheeks {
         let offset = boundary(&projection, d);
         let left = column(-(offset as isize)).clamp(0, face.width as isize - 1) as usize;
         let right = column(offset as isize).clamp(0, face.width as isize - 1) as usize;
-        // Ears lie between the brows and the mouth.
-        let rows = (square.y0, ((middle.y + 1.1 * d).max(0.0) as usize).clamp(square.y0 + 1, square.y1));
-        let widest = (0.6 * d) as usize;
-        let sides = [(left.saturating_sub(widest), left), (right + 1, (right + 1 + widest).min(face.width))];
-        let ears = sides.map(|(x0, x1)| (x0 < x1).then(|| ear(face, Bounds { x0, y0: rows.0, x1, y1: rows.1 }, d))?);
+        let row = |y: f64| (y.max(0.0) as usize).min(face.height - 1);
+        let (y0, y1) = (row(middle.y - EARS.0 * d), row(middle.y + EARS.1 * d) + 1);
+        let reach = (EARS.2 * d) as usize;
+        let sides = [(left.saturating_sub(reach), left), (right + 1, (right + 1 + reach).min(face.width))];
+        let ears = sides.map(|(x0, x1)| (x0 < x1).then(|| ear(face, Bounds { x0, y0, x1, y1 }, d))?);
         Self { projection, rows: (square.y0, square.y1), left, right, ears }
     }
 }
@@ -98,8 +101,8 @@ fn ear(face: &Mask, within: Bounds, d: f64) -> Option<Ear> {
     let cut = Mask { width: within.width(), height: within.height(), bits: bits.copied().collect() };
     let regions = Regions::of(&cut, Neighbours::Four);
     let region = regions.list.iter().max_by_key(|r| r.area)?;
-    let (width, height) = (region.bounds.width() as f64, region.bounds.height() as f64);
-    if (region.area as f64) < LEAST_EAR * d * d || width > LARGEST_EAR.0 * d || height > LARGEST_EAR.1 * d {
+    let area = region.area as f64;
+    if area < LEAST_EAR * d * d || area > FULLEST_EAR * within.area() as f64 {
         return None;
     }
     let pixels = regions.pixels_of(region).map(|(x, y)| (within.x0 + x, within.y0 + y)).collect();

@@ -8,6 +8,9 @@ use crate::geometry::Point;
 /// The longest side that is worked on. Faces of passport photos are some 200 pixels wide in it, as the thesis's were.
 pub const STAGES_SIDE: usize = 600;
 
+/// Eyes nearer to each other, in pixels of the stages, leave no square to look in.
+const LEAST_DISTANCE: f64 = 4.0;
+
 /// What the thesis's pipeline makes of a photo, stage by stage. Coordinates are pixels of [`Stages::photo`], whose
 /// pixel centres are whole numbers; [`Stages::to_photo`] brings them back.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,27 +56,31 @@ impl Stages {
     /// All stages as the thesis has them.
     #[must_use]
     pub fn of(photo: &Photo) -> Self {
-        let mut stages = Self::without_eyes(photo);
-        stages.located = stages
-            .pairs
-            .best()
-            .map(|pair| Eyeballs::of(&stages.pairs.dark, pair))
-            // Two circles in one place would leave no square to look in.
-            .filter(|eyes| eyes.distance() >= 4.0)
-            .map(|eyes| Located::of(&stages.hsi.intensity, &stages.refined, eyes));
-        stages
+        let stages = Self::without_eyes(photo);
+        let eyes = stages.pairs.best().map(|pair| Eyeballs::of(&stages.pairs.dark, pair));
+        stages.located_at(eyes)
     }
 
-    /// All stages, with the middles of the eyeballs known otherwise, in pixels of the photo. Without a distance
-    /// between them nothing follows from them.
+    /// All stages, with the middles of the eyeballs known otherwise, in pixels of the photo, the image's left one first.
+    /// Nothing follows from eyes that are one place, or farther apart than the photo is long.
     #[must_use]
     pub fn with_eyes(photo: &Photo, left: Point, right: Point) -> Self {
-        let mut stages = Self::without_eyes(photo);
-        let eyes = Eyeballs::at(stages.from_photo(left), stages.from_photo(right));
-        if eyes.distance() >= 4.0 {
-            stages.located = Some(Located::of(&stages.hsi.intensity, &stages.refined, eyes));
-        }
-        stages
+        Self::without_eyes(photo).seen_from(left, right)
+    }
+
+    /// The same stages with other eyes; see [`Stages::with_eyes`].
+    #[must_use]
+    pub fn seen_from(self, left: Point, right: Point) -> Self {
+        let eyes = Eyeballs::at(self.from_photo(left), self.from_photo(right));
+        self.located_at(Some(eyes))
+    }
+
+    fn located_at(mut self, eyes: Option<Eyeballs>) -> Self {
+        let most = (self.photo.width() + self.photo.height()) as f64;
+        self.located = eyes
+            .filter(|eyes| (LEAST_DISTANCE..=most).contains(&eyes.distance()))
+            .map(|eyes| Located::of(&self.hsi.intensity, &self.refined, eyes));
+        self
     }
 
     fn without_eyes(photo: &Photo) -> Self {
@@ -118,4 +125,57 @@ fn central(width: usize, height: usize) -> Bounds {
     let span = |side: usize| (side / 4, (3 * side).div_ceil(4).clamp(side / 4 + 1, side));
     let ((x0, x1), (y0, y1)) = (span(width), span(height));
     Bounds { x0, y0, x1, y1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A photo of random blocks, of a generator of ours.
+    fn random(width: usize, height: usize, seed: u64) -> Photo {
+        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+        let blocks: Vec<[u8; 3]> = (0..1024)
+            .map(|_| {
+                state ^= state << 13;
+                state ^= state >> 7;
+                state ^= state << 17;
+                [state as u8, (state >> 8) as u8, (state >> 16) as u8]
+            })
+            .collect();
+        Photo::new(
+            width,
+            height,
+            (0..width * height).map(|i| blocks[(i % width / 5 + i / width / 3 * 31) % 1024]).collect(),
+        )
+    }
+
+    #[test]
+    fn no_photo_and_no_eyes_break_it() {
+        let sizes = [(1, 1), (2, 1), (1, 2), (3, 3), (5, 90), (90, 5), (64, 64), (160, 120)];
+        let far = [-1e9, -50.0, 0.0, 20.0, 47.5, 200.0, 1e9, f64::NAN, f64::INFINITY];
+        for (n, (width, height)) in sizes.into_iter().enumerate() {
+            for photo in [random(width, height, n as u64 + 1), Photo::new(width, height, vec![[90; 3]; width * height])]
+            {
+                let stages = Stages::of(&photo);
+                for a in far {
+                    for b in far {
+                        let seen = stages.clone().seen_from(Point::new(a, b), Point::new(b + 13.0, a));
+                        let distance = (b + 13.0 - a).hypot(a - b);
+                        assert!(seen.located.is_none() || distance >= 4.0);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn places_come_back_from_the_size_that_is_worked_on() {
+        let stages = Stages::of(&random(1500, 1200, 3));
+        assert_eq!((stages.photo.width(), stages.photo.height(), stages.factor), (600, 480, 2.5));
+        // The photo's corner is the corner of both: half a pixel off the middle of the first.
+        let corner = stages.to_photo(Point::new(-0.5, -0.5));
+        assert!(corner.distance(Point::new(-0.5, -0.5)) < 1e-12);
+        let p = Point::new(700.25, 31.5);
+        assert!(stages.to_photo(stages.from_photo(p)).distance(p) < 1e-9);
+    }
 }

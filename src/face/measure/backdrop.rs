@@ -11,12 +11,17 @@ const TERMS: usize = 6;
 /// Of every so many cells one is fitted to.
 const STRIDE: usize = 5;
 
+/// How much darker than the surface a shadow of the head is, as a spread of lightness. In a photo without colour
+/// nothing would tell dark hair from it, so there it counts for nothing.
+const SHADOW: f32 = 0.025;
+
 /// The colours behind the head.
 pub(super) struct Backdrop {
     surface: [[f32; TERMS]; 3],
     spread: Lab,
     log_peak: f32,
     others: Option<Mixture>,
+    coloured: bool,
     /// The share of what lies far from the face that the smooth surface explains, 0 to 1.
     pub plain: f64,
 }
@@ -70,10 +75,12 @@ impl Backdrop {
             .map(|c| (lab[*c], 1.0))
             .collect();
         let others = (plain < 0.85).then(|| Mixture::of(&left, 4, [0.03, 0.01, 0.01])).flatten();
+        let coloured = lab.iter().step_by(7).filter(|c| c[1].hypot(c[2]) > 0.01).count() > lab.len() / 7 / 20;
         let volume: f32 = spread.iter().product();
-        Self { surface, spread, log_peak: -2.757 - volume.ln(), others, plain }
+        Self { surface, spread, log_peak: -2.757 - volume.ln(), others, coloured, plain }
     }
 
+    pub fn describe(&self) -> String { format!("spread {:?} plain {:.2} mid {:?}", self.spread, self.plain, self.colour(100 * COLUMNS + 115)) }
     /// The colour of the surface at a cell.
     pub fn colour(&self, cell: usize) -> Lab {
         value(&self.surface, cell)
@@ -81,7 +88,13 @@ impl Backdrop {
 
     /// The logarithm of the density of a colour at a cell.
     pub fn log(&self, lab: Lab, cell: usize) -> f32 {
-        let d = squared(lab, &self.surface, self.spread, cell);
+        let wall = value(&self.surface, cell);
+        // The head's shadow on the wall: less light scales all of OKLab alike.
+        let scale = (lab[0] / wall[0].max(0.05)).clamp(0.6, 1.0);
+        let shadow = if self.coloured { SHADOW.min(0.06 * wall[0]) } else { 0.0 };
+        let spread = if scale < 1.0 { self.spread[0].max(shadow) } else { self.spread[0] };
+        let [l, a, b] = [lab[0] - wall[0], lab[1] - scale * wall[1], lab[2] - scale * wall[2]];
+        let d = (l / spread).powi(2) + (a / self.spread[1]).powi(2) + (b / self.spread[2]).powi(2);
         // Heavier tails than a Gaussian's: walls have spots, shadows and noise.
         let smooth = self.log_peak - (0.5 * d).min(1.5 + 0.25 * d);
         let share = self.plain.clamp(0.05, 0.95) as f32;

@@ -88,6 +88,15 @@ impl Mixture {
         self
     }
 
+    /// Without the parts whose means `test` holds of, as long as parts of a quarter of the weight are left.
+    pub fn without(mut self, test: impl Fn(Lab) -> bool) -> Self {
+        let left: f32 = self.parts.iter().filter(|p| !test(p.mean)).map(|p| p.weight).sum();
+        if left > 0.25 {
+            self.parts.retain(|p| !test(p.mean));
+        }
+        self
+    }
+
     /// One Gaussian with its own spread along the axes.
     pub fn single(mean: Lab, spread: Lab) -> Self {
         Self { parts: Vec::new() }.with(mean, spread, 1.0)

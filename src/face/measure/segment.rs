@@ -80,7 +80,7 @@ impl Regions {
             .collect();
         // What lies below the lobes or outside the face is skin in the shade as well.
         let bright: Vec<bool> = (0..CELLS).map(|c| from_face[c] < 0.0 && centre(c).y < shape.lobe).collect();
-        let mut hair = first_hair(shape, &lab, &inside, &from_face, &behind, &shaded);
+        let mut hair = first_hair(shape, &lab, &inside, &from_face, &behind, &skin);
         let mut cloth = first_cloth(shape, &lab, &inside);
         let mut classes: [Vec<f32>; CLASSES] = Default::default();
         for round in 0..3 {
@@ -101,8 +101,8 @@ impl Regions {
                             (_, Some(log)) => log[c],
                             (_, None) => return -20.0,
                         };
-                        // Below this density a class says nothing of a colour: a twentieth of all colours alike.
-                        const FLOOR: f32 = -1.0;
+                        // No class rules a colour out: models are never whole.
+                        const FLOOR: f32 = -4.0;
                         0.5 * log.max(FLOOR) + expected[k][c]
                     })
                     .collect()
@@ -116,6 +116,8 @@ impl Regions {
                         .collect();
                     Mixture::of(&samples, parts, LEAST)
                 };
+                // What the wall explains within some four spreads teaches nothing about hair.
+                const WALL: f32 = 5.0;
                 // Hair that was taken for skin must not teach what skin is.
                 let apart = |c: usize| match (&seen[SKIN], &seen[HAIR]) {
                     (Some(skin), Some(hair)) => skin[c] > hair[c] - 2.0,
@@ -127,7 +129,7 @@ impl Regions {
                 if let Some(found) = learn(SKIN, 4, &|c| clear[c] && (from_face[c] < 10.0 || centre(c).y > shape.lobe)) {
                     shaded = found;
                 }
-                hair = learn(HAIR, 3, &|_| true).or(hair);
+                hair = learn(HAIR, 3, &|c| behind[c] < WALL).map(|found| without_skin(found, &skin)).or(hair);
                 cloth = learn(CLOTH, 3, &|_| true).or(cloth);
             }
         }
@@ -184,15 +186,26 @@ fn first_hair(
         .filter(|c| inside[*c] && (6.0..42.0).contains(&from_face[*c]) && centre(*c).y < shape.ear_top)
         .map(|c| (lab[c], 1.0 / (1.0 + (behind[c] - ANY).exp() + (skin.log(lab[c]) - ANY).exp())))
         .collect();
-    Mixture::of(&ring, 3, LEAST)
+    Mixture::of(&ring, 3, LEAST).map(|found| without_skin(found, skin))
 }
 
-/// Clothes as the bottom of the frame shows them.
+/// Hair without what is as like skin as skin is: points that are off let some of it in. A shaved head keeps it, as
+/// there is little else.
+fn without_skin(hair: Mixture, skin: &Mixture) -> Mixture {
+    // Skin peaks near 8.5; this is about 2.4 spreads away.
+    const LIKE_SKIN: f32 = 5.5;
+    hair.without(|mean| skin.log(mean) > LIKE_SKIN)
+}
+
+/// Clothes as the lowest 40 units that the photo shows of the frame have them, beside the neck.
 fn first_cloth(shape: &Shape, lab: &[Lab], inside: &[bool]) -> Option<Mixture> {
+    let shown = |row: usize| inside[row * COLUMNS..(row + 1) * COLUMNS].iter().filter(|i| **i).count() > COLUMNS / 3;
+    let last = (0..ROWS).rev().find(|row| shown(*row))?;
+    let top = (shape.chin + 20.0).max(centre(last * COLUMNS).y - 40.0);
     let samples: Vec<(Lab, f32)> = (0..CELLS)
-        .filter(|c| c % 3 == 0 && inside[*c] && {
+        .filter(|c| c % 2 == 0 && inside[*c] && {
             let p = centre(*c);
-            p.y > shape.chin + 75.0 && p.x.abs() < 190.0
+            p.y > top && (0.9 * shape.half_jaw..200.0).contains(&p.x.abs())
         })
         .map(|c| (lab[c], 1.0))
         .collect();
@@ -257,13 +270,15 @@ fn odds(shape: &Shape, at: Point, off: f32, ear: bool) -> [f32; CLASSES] {
     let middle = (shape.ear_top + shape.lobe) / 2.0;
     if y < middle {
         let back = -1.5 + (off / 40.0).min(2.0);
-        return [back, -0.7 - off / 8.0, 0.6 - (off / 120.0).min(1.5), -8.0];
+        return [back, -0.5 - (off / 14.0).min(4.0), 0.6 - (off / 120.0).min(1.5), -8.0];
     }
     if x < 0.85 * shape.half_jaw {
         return [-3.0, 1.0, -3.0, cloth];
     }
     let back = -1.0 + (off / 40.0).min(1.5);
-    [back, -0.8 - off / 40.0, -(off / 80.0).min(2.0), cloth]
+    // Hair may fall on the shoulders, but dark clothes are likelier the farther down.
+    let low = ((y - shape.chin) / 40.0).clamp(0.0, 2.0) as f32;
+    [back, -0.8 - off / 40.0, -(off / 80.0).min(2.0) - low, cloth]
 }
 
 /// The lightness that smoothing follows, and its local mean and spread.
