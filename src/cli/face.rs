@@ -57,7 +57,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let (photo, created, said) = match (&args.photo, &args.project) {
         (Some(path), _) => {
             let (photo, sha256) = Photo::read_with_sum(path)?;
-            let created = create(&photo, &sha256, None, anchors.as_ref()).map_err(|r| r.fault().at(path))?;
+            let created = create(&photo, &sha256, None, anchors.as_ref()).map_err(|r| Fault::from(r).at(path))?;
             (photo, created, None)
         }
         (None, Some(project)) => of_project(project, args.face.as_deref(), anchors.as_ref())?,
@@ -113,7 +113,7 @@ fn of_project(
     let face = &lesson.faces[number];
     let path = face.photo.clone().ok_or_else(|| no_photo(face))?;
     let (photo, sha256) = Photo::read_with_sum(&path)?;
-    let created = create(&photo, &sha256, face.face.as_ref(), anchors).map_err(|r| r.fault().at(&path))?;
+    let created = create(&photo, &sha256, face.face.as_ref(), anchors).map_err(|r| Fault::from(r).at(&path))?;
     let (before, after) = (face.face.as_ref().map(Face::to_toml), created.face.to_toml());
     if before.as_ref() != Some(&after) {
         let edit = Edit::Face { face: number, before, after: Some(after) };

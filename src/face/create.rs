@@ -6,6 +6,7 @@ use std::fmt;
 use super::find::{Anchors, Found, Refusal, find, find_from};
 use super::measure::{Measured, measure};
 use super::{Face, FeaturePoint, How, PhotoRecord, Units};
+use crate::disk::Fault;
 use crate::photo::Photo;
 
 /// A face and what there is to say of it.
@@ -152,4 +153,10 @@ fn warnings(photo: &Photo, found: &Found, measured: &Measured) -> Vec<Warning> {
     warn(fit.burnt > 0.03, "the photo is too light: parts of the skin are white".into(), "take it in softer light");
     let _ = photo;
     out
+}
+
+impl From<Refusal> for Fault {
+    fn from(refusal: Refusal) -> Self {
+        Self::new(refusal.to_string()).help(refusal.help())
+    }
 }

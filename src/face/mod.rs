@@ -3,6 +3,7 @@
 //!
 //! It owns no drawing: what a face looks like is a `figure`'s business.
 
+mod create;
 mod file;
 pub mod find;
 pub mod measure;
@@ -13,7 +14,9 @@ mod units;
 
 use std::ops::{Index, IndexMut};
 
+pub use create::{Created, Warning, create};
 pub use file::MAX_COORDINATE;
+pub use find::{Anchors, Refusal};
 pub use point::{FeaturePoint, Part};
 pub use units::{Units, to_face_frame};
 

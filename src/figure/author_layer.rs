@@ -259,7 +259,7 @@ mod tests {
             <a xlink:href="https://example.org"><rect x="10" y="20" width="30" height="40" fill="#ff0000" fill-opacity=".5"/></a>
             <path d="M0 0L50 0" stroke="#00f" stroke-width="4" fill="none"/></svg>"##;
         let layer = AuthorLayer::parse(text, LayerPlace::Body).unwrap();
-        assert_eq!(layer.view.size(), crate::geometry::Rect::new(0.0, 0.0, 100.0, 200.0).size());
+        assert_eq!(layer.view.size(), Rect::new(0.0, 0.0, 100.0, 200.0).size());
         assert!(layer.left_out.contains(&"pictures") && layer.left_out.contains(&"scripts"), "{:?}", layer.left_out);
         let drawing = crate::drawing::Drawing {
             view: layer.view,

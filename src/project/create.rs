@@ -10,7 +10,7 @@ use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, 
 use crate::emotion::Record;
 use crate::face::{Created, Warning};
 use crate::figure::LineFigure;
-use crate::photo::{Photo, sha256};
+use crate::photo::{Photo, sha256, to_clean_png};
 use crate::script::System;
 use crate::timing::{self, Format};
 
@@ -159,8 +159,8 @@ impl NewFace {
     fn of(path: &Path) -> Result<Self> {
         let photo = Photo::read(path)?;
         let (kept, _) = photo.at_most(KEPT_SIDE);
-        let png = kept.to_clean_png();
-        let created = crate::face::create(&kept, &sha256(&png), None, None).map_err(|r| r.fault().at(path))?;
+        let png = to_clean_png(&kept)?;
+        let created = crate::face::create(&kept, &sha256(&png), None, None).map_err(|r| Fault::from(r).at(path))?;
         Ok(Self { png, created })
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::manifest::FaceEntry;
 use super::save::checksum;
-use crate::disk::{Result, inside, read_text};
+use crate::disk::{Fault, Result, inside, read_text};
 use crate::face::{Face, create};
 use crate::photo::Photo;
 
@@ -68,7 +68,7 @@ impl LessonFace {
             (None, None) => Ok(None),
             (None, Some(path)) => {
                 let (photo, sha256) = Photo::read_with_sum(path)?;
-                let created = create(&photo, &sha256, None, None).map_err(|r| r.fault().at(path))?;
+                let created = create(&photo, &sha256, None, None).map_err(|r| Fault::from(r).at(path))?;
                 Ok(Some(Cow::Owned(created.face)))
             }
         }

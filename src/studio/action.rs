@@ -104,7 +104,7 @@ pub enum Action {
     /// Place the face by hand, where the search fails.
     Anchors,
     /// Take the place of the cross.
-    Place,
+    Cross,
     /// The next way for hair to fall.
     Hair,
     /// Show the cartoon with another emotion.

@@ -213,7 +213,7 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
             }
             Ok(())
         }
-        Purpose::Export => Ok(()),
+        Purpose::Export | Purpose::Point => Ok(()),
     }
 }
 

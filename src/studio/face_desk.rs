@@ -165,9 +165,10 @@ mod tests {
 
     #[test]
     fn a_step_outwards_is_a_step_outwards_at_the_other_side() {
-        let text = include_str!("../../tests/faces/average.toml");
+        let text = include_str!("../../projects/nihao/faces/teacher/face.toml");
         let face = Face::parse(text).expect("a face");
         let step = mirrored(Vec2::new(-1.0, 2.0), &face);
-        assert!((step.x - 1.0).abs() < 0.05 && (step.y - 2.0).abs() < 0.05, "{step:?}");
+        // The eyes of the photo are not quite level.
+        assert!((step.x - 1.0).abs() < 0.15 && (step.y - 2.0).abs() < 0.15, "{step:?}");
     }
 }

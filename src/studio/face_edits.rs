@@ -52,7 +52,7 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
     match action {
         Action::Move(x, y) => shift(state, Vec2::new(f64::from(x), f64::from(y))),
         Action::FindAgain => return find_again(state, None),
-        Action::Place => return place(state),
+        Action::Cross => return place(state),
         Action::Anchors => anchors(state),
         Action::Release => return release(state),
         Action::Hair => next_hair(state),

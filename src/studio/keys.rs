@@ -175,7 +175,7 @@ pub const TABLE: &[Row] = &[
     row(&[Facing], &[("r", FindAgain)], "find", "find the points again (those set by hand stay)"),
     row(&[Facing], &[("x", Release), ("Delete", Release)], "", "give a point that was set by hand back to the search"),
     row(&[Facing], &[("o", Anchors)], "", "place eyes, mouth and chin by hand, where the search fails; give that up"),
-    row(&[Facing], &[("Enter", super::Action::Place)], "", "take the place of the cross"),
+    row(&[Facing], &[("Enter", Cross)], "", "take the place of the cross"),
     row(&[Facing], &[("v", Stage(1)), ("V", Stage(-1))], "stages", "next, previous stage of the search; the photo"),
     row(&[Facing], &[("e", Emotion(1)), ("E", Emotion(-1))], "emotion", "show the next, previous emotion"),
     row(&[Facing], &[("m", Mouth(1)), ("M", Mouth(-1))], "mouth", "show the next, previous mouth shape"),
@@ -183,7 +183,8 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline, Facing], &[("u", Undo), ("Ctrl-r", Redo)], "undo", "undo, redo"),
     row(&[Timeline, Lesson, Facing], &[("s", Save), ("Ctrl-s", Save)], "save", "save the lesson"),
     row(&[Timeline, Lesson], &[("e", Export)], "export", "export"),
-    row(&[Timeline, Lesson], &[("f", Face)], "face", "the face: its photo, its points, its cartoon"),
+    row(&[Lesson], &[("f", Face)], "face", "the face: its photo, its points, its cartoon"),
+    row(&[Timeline], &[("f", Face)], "", "the face: its photo, its points, its cartoon"),
     row(&[Projects, Lesson, Timeline, Facing, Player], &[("?", Help)], "help", "all keys of this place"),
     row(&[Projects, Lesson, Timeline, Facing, Player], &[("Ctrl-l", Redraw)], "", "draw the screen anew"),
     row(&[Projects, Player], &[("q", Quit), ("Esc", Quit), ("Ctrl-c", Quit)], "quit", "quit"),
@@ -299,7 +300,7 @@ pub fn hints_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
                 shown_keys.push((key, *action));
             }
         }
-        if r.hint == "undo" || r.hint == "syllable" {
+        if matches!(r.hint, "undo" | "syllable" | "point" | "stages" | "emotion" | "mouth") {
             shown_keys.truncate(1);
         }
         shown_keys.iter().map(|(k, _)| shown(k)).collect::<String>()
