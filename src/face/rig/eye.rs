@@ -14,6 +14,8 @@ const CLOSED_AT: f64 = 0.18;
 const CLOSED_SINKS: f64 = 1.5;
 /// Of a glance up or down, how much the upper and the lower lid follow.
 const LIDS_FOLLOW: (f64, f64) = (0.40, 0.20);
+/// Of the way that a closing lid makes, how much its crease follows.
+const CREASE_FOLLOWS: f64 = 0.40;
 /// Lids stay at least this far apart before a blink, in heights of the eye.
 const LEAST_OPEN: f64 = 0.22;
 
@@ -46,8 +48,9 @@ pub struct Eye {
     pub radius: f64,
     /// How far the blink has gone, 0 open to 1 closed.
     pub closed: f64,
-    /// How far the crease lies above the upper lid.
-    pub crease: f64,
+    /// The crease over the upper lid, from its inner to its outer end. A blink draws it down a little and stretches the
+    /// skin between.
+    pub crease: CubicBez,
     /// Height of the eye at rest.
     pub height: f64,
     names: [P; 5],
@@ -79,8 +82,8 @@ impl Socket {
         let wide = (open - 1.0).max(0.0);
         let radius = self.radius * e.iris;
         // Gaze: on the eyeball, so that the iris never leaves the lids.
-        let width = (self.outer.x - self.inner.x).abs();
-        let reach = Vec2::new(0.8 * (0.5 * width - 0.72 * radius).max(0.0), 0.32 * height);
+        let toward = if (gaze.x >= 0.0) == (self.side > 0.0) { self.outer } else { self.inner };
+        let reach = Vec2::new(0.8 * ((toward.x - self.centre.x).abs() - 0.72 * radius).max(0.0), 0.32 * height);
         let look = Vec2::new(soft(gaze.x * height, reach.x), soft((gaze.y + e.look_down) * height, reach.y));
         let iris = self.centre + Vec2::new(look.x, 0.02 * height + look.y);
         // Lids: by the emotion about the eyeball's middle, after the glance, and wider than at rest when startled.
@@ -93,22 +96,15 @@ impl Socket {
         lower += 0.5 * missing;
         // The blink: both lids go to the line where they meet, the corners come along.
         let meet = lerp(lower, upper, CLOSED_AT) + CLOSED_SINKS;
+        let folded = lerp(upper, meet, CREASE_FOLLOWS * closed);
         upper = lerp(upper, meet, closed);
         lower = lerp(lower, meet, closed);
+        let crease = self.crease * (0.75 + 0.25 * e.lid_upper) * (1.0 - 0.25 * closed);
+        let crease = creased(&lids(self.inner, self.outer, folded, folded).0, crease);
         let inner = Point::new(self.inner.x, lerp(self.inner.y, meet, 0.45 * closed));
         let outer = Point::new(self.outer.x, lerp(self.outer.y, meet, 0.35 * closed));
         let (upper, lower) = lids(inner, outer, upper, lower);
-        Eye {
-            side: self.side,
-            upper,
-            lower,
-            iris,
-            radius,
-            closed,
-            crease: self.crease * (1.0 - 0.55 * closed) * (0.75 + 0.25 * e.lid_upper),
-            height,
-            names: self.names,
-        }
+        Eye { side: self.side, upper, lower, iris, radius, closed, crease, height, names: self.names }
     }
 }
 
@@ -140,6 +136,12 @@ fn lids(inner: Point, outer: Point, upper: f64, lower: f64) -> (CubicBez, CubicB
         )
     };
     (curve(upper), curve(lower))
+}
+
+/// A lid's curve raised by three quarters of `by` at its inner end and all of it at the outer one.
+fn creased(lid: &CubicBez, by: f64) -> CubicBez {
+    let up = |p: Point, share: f64| Point::new(p.x, p.y - share * by);
+    CubicBez::new(up(lid.p0, 0.75), up(lid.p1, 0.83), up(lid.p2, 0.92), up(lid.p3, 1.0))
 }
 
 /// `v` up to about `reach`, slowing down on the way: an eye that follows something does not hit a wall.

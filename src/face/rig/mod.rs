@@ -9,8 +9,10 @@
 mod deformed;
 mod emotions;
 mod eye;
+mod lips;
 mod mouth;
 mod neutral;
+mod prepare;
 mod proportions;
 
 pub use deformed::Deformed;

@@ -16,6 +16,9 @@ pub(super) fn eye(eye: &Eye, palette: &Palette, ink: f64, ink_only: bool) -> Vec
     let side = if eye.side < 0.0 { "left" } else { "right" };
     let name = |what: &str| format!("{side}-{what}");
     let mut items = Vec::with_capacity(8);
+    if eye.closed > 0.0 && !ink_only {
+        items.push(Item::area(name("lid"), lid(eye, ink), palette.skin.faded(0.75 * eye.closed)));
+    }
     if eye.opening() > SLIVER {
         let opening = between(&eye.upper, &eye.lower);
         let mut inside = vec![Item::area(name("eye-shade"), opening.clone(), palette.sclera_shade)];
@@ -41,6 +44,13 @@ pub(super) fn eye(eye: &Eye, palette: &Palette, ink: f64, ink_only: bool) -> Vec
     items
 }
 
+/// The skin of the upper lid, which comes down over the eye into the light.
+fn lid(eye: &Eye, ink: f64) -> BezPath {
+    let up = Vec2::new(0.0, -0.9 * ink);
+    let c = eye.crease;
+    between(&CubicBez::new(eye.upper.p0, c.p1 + up, c.p2 + up, eye.upper.p3), &eye.upper)
+}
+
 /// Heavy, tapering to the nose, drawn a little past the outer corner: up when open, down when closed.
 fn upper_lid(eye: &Eye, ink: f64) -> BezPath {
     let mut line = samples(&eye.upper, 0.0, 1.0, 13);
@@ -53,10 +63,9 @@ fn upper_lid(eye: &Eye, ink: f64) -> BezPath {
 }
 
 fn crease(eye: &Eye, ink: f64) -> BezPath {
-    let (from, to) = (0.18, 0.95);
-    let mut line = samples(&eye.upper, from, to, 9);
-    for (i, p) in line.iter_mut().enumerate() {
-        p.y -= eye.crease * lerp(0.75, 1.0, i as f64 / 8.0) + 0.9 * ink;
+    let mut line = samples(&eye.crease, 0.18, 0.95, 9);
+    for p in &mut line {
+        p.y -= 0.9 * ink;
     }
     brush(&line, 0.72 * ink, &[0.0, 0.8, 1.0, 0.2])
 }

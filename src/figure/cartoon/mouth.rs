@@ -107,10 +107,12 @@ fn teeth(mouth: &Mouth, open_width: f64) -> BezPath {
     let spread = ((mouth.width() / mouth.neutral_width - 1.0) / 0.2).clamp(0.0, 1.0);
     let share = lerp(lerp(0.42, 0.60, spread), 0.26, mouth.tongue);
     let free = (share * gap).max(3.2).min(0.105 * mouth.neutral_width);
-    let deep = lerp(free * lerp(1.0, 0.35, mouth.rounded), 1.2 * gap + 1.0, mouth.bite);
+    // On the way from a bite to a vowel the lip leaves the teeth at once.
+    let filled = ((mouth.bite - 0.5) / 0.5).clamp(0.0, 1.0);
+    let deep = lerp(free * lerp(1.0, 0.35, mouth.rounded), 1.2 * gap + 1.0, filled);
     let half = lerp(0.46, 0.40, mouth.rounded) * open_width;
     let p = |x: f64, y: f64| Point::new(top.x + x * half, top.y + y);
-    let side = lerp(0.35, 1.0, mouth.bite) * deep;
+    let side = lerp(0.35, 1.0, filled) * deep;
     let mut path = BezPath::new();
     path.push(PathEl::MoveTo(p(-1.0, -25.0)));
     path.push(PathEl::LineTo(p(-1.0, side)));
