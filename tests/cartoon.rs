@@ -61,3 +61,94 @@ fn faces_of_a_folder_are_drawn() {
         }
     }
 }
+
+/// How long a drawing and a picture take: `LIANPU_FACES=folder cargo test --release --test cartoon -- --ignored --nocapture long`.
+#[test]
+#[ignore = "for measuring"]
+fn how_long_a_drawing_takes() {
+    let folder = std::env::var("LIANPU_FACES").unwrap_or_default();
+    for name in ["003", "037", "069", "129"] {
+        let face = Face::parse(&std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap()).unwrap();
+        let cartoon = Cartoon::new(&face, &Style::built_in("normal").unwrap());
+        let rest = Pose::default();
+        let happy = Pose::of(Ratios::pure(Emotion::Happy));
+        let open = Pose {
+            mouth: lianpu::pose::MouthPose::of(lianpu::pose::MouthShape::A, lianpu::pose::MouthPreset::Distinct),
+            ..happy
+        };
+        let turned = Pose { head: lianpu::pose::Head { x: 0.02, y: 0.03, roll: 3.0 }, ..open };
+        for (label, pose) in [("rest", rest), ("happy a", open), ("turned", turned)] {
+            let mut painter = Painter::new(1280, 720).unwrap();
+            let mut first = cartoon.draw(&pose);
+            let _ = painter.paint(&first);
+            // The least of many: other work on the machine only adds.
+            let time = |n: u32, f: &mut dyn FnMut()| {
+                let one = |_| {
+                    let started = std::time::Instant::now();
+                    f();
+                    started.elapsed()
+                };
+                (0..n).map(one).min().unwrap()
+            };
+            let draw = time(500, &mut || first = cartoon.draw(&pose));
+            let print = time(200, &mut || {
+                std::hint::black_box(first.fingerprint());
+            });
+            let paint = time(40, &mut || {
+                std::hint::black_box(painter.paint(&first));
+            });
+            println!("{name} {label}: draw {draw:?}, fingerprint {print:?}, paint {paint:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "for measuring"]
+fn what_takes_long() {
+    use lianpu::drawing::{Item, Layer};
+    let folder = std::env::var("LIANPU_FACES").unwrap_or_default();
+    let face = Face::parse(&std::fs::read_to_string(format!("{folder}/003.toml")).unwrap()).unwrap();
+    let cartoon = Cartoon::new(&face, &Style::built_in("normal").unwrap());
+    let drawing = cartoon.draw(&Pose::default());
+    fn flat(item: &Item, out: &mut Vec<Item>) {
+        match item {
+            Item::Shared(s) => s.items().iter().for_each(|i| flat(i, out)),
+            i => out.push(i.clone()),
+        }
+    }
+    let mut all = Vec::new();
+    drawing.layers[1].items.iter().for_each(|i| flat(i, &mut all));
+    let time = |items: Vec<Item>| {
+        let mut d = drawing.clone();
+        d.layers = vec![Layer { name: "dynamic".into(), items }];
+        let mut painter = Painter::new(1280, 720).unwrap();
+        let _ = painter.paint(&d);
+        let one = |_| {
+            let started = std::time::Instant::now();
+            std::hint::black_box(painter.paint(&d));
+            started.elapsed()
+        };
+        (0..20).map(one).min().unwrap()
+    };
+    println!("nothing {:?}", time(vec![]));
+    for item in all.clone() {
+        if let Item::Group(g) = &item {
+            for inner in &g.items {
+                let mut g = g.clone();
+                g.items = vec![inner.clone()];
+                println!("  inner {:?}", time(vec![Item::Group(g)]));
+            }
+            let mut g = g.clone();
+            g.items = vec![];
+            println!("  empty {} {:?}", g.clip.as_ref().map_or(0, |c| c.elements().len()), time(vec![Item::Group(g)]));
+        }
+    }
+    for item in all {
+        let name = match &item {
+            Item::Area(a) => a.name.clone(),
+            Item::Group(g) => format!("group {} {}", g.name, g.items.len()),
+            _ => "other".into(),
+        };
+        println!("{name} {:?}", time(vec![item]));
+    }
+}

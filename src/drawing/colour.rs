@@ -37,6 +37,14 @@ impl Colour {
         self
     }
 
+    /// What is seen where this opaque colour lies on another one with `share` of it covering: as opaque as `below`.
+    #[must_use]
+    pub fn over(self, below: Self, share: f64) -> Self {
+        let share = share.clamp(0.0, 1.0);
+        let mixed = |a: u8, b: u8| (f64::from(b) + (f64::from(a) - f64::from(b)) * share).round() as u8;
+        Self { r: mixed(self.r, below.r), g: mixed(self.g, below.g), b: mixed(self.b, below.b), a: below.a }
+    }
+
     /// `#rrggbb` without the alpha.
     #[must_use]
     pub fn hex(self) -> String {

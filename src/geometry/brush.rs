@@ -61,7 +61,9 @@ pub fn brush_in_steps(line: &[Point], width: f64, profile: &[f64], steps: usize)
     path
 }
 
-/// A closed brush round `line`, as wide at each of its points as `width` says for the outward direction there: two outlines that wind against each other.
+/// A closed brush round `line`, as wide at each of its points as `width` says for the outward direction there: two
+/// outlines of straight pieces that wind against each other. The points are meant to be close: with steps of 3 on a
+/// bend of radius 20 the pieces are 0.06 off it.
 #[must_use]
 pub fn brush_ring(line: &[Point], width: impl Fn(Vec2) -> f64) -> BezPath {
     let n = line.len();
@@ -81,9 +83,9 @@ pub fn brush_ring(line: &[Point], width: impl Fn(Vec2) -> f64) -> BezPath {
     }
     inner.reverse();
     for ring in [outer, inner] {
-        path.push(PathEl::MoveTo(ring[0]));
-        spline_on(&mut path, &ring, true);
-        path.push(PathEl::ClosePath);
+        path.move_to(ring[0]);
+        ring[1..].iter().for_each(|p| path.line_to(*p));
+        path.close_path();
     }
     path
 }

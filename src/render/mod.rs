@@ -17,7 +17,7 @@ pub use svg::to_svg;
 pub const MAX_SIDE: u32 = 16_384;
 
 /// Raised whenever the same drawing comes to give other pixels, so that frames of before are written anew.
-pub const REVISION: u32 = 1;
+pub const REVISION: u32 = 2;
 
 /// How far an outline may be from the true one, in units of the drawing: a tenth of a pixel at twice its size.
 const TOLERANCE: f64 = 0.05;

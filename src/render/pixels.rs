@@ -119,15 +119,15 @@ fn skia_colour(c: Colour) -> tiny_skia::Color {
 fn paint_layers(canvas: &mut Pixmap, layers: &[Layer], place: Affine, font: Option<&FontFile>) {
     for layer in layers {
         for item in &layer.items {
-            paint_item(canvas, item, place, None, font);
+            paint_item(canvas, item, place, font);
         }
     }
 }
 
-fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mask>, font: Option<&FontFile>) {
+fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, font: Option<&FontFile>) {
     match item {
-        Item::Area(area) => fill(canvas, &area.path, area.colour, place, mask),
-        Item::Ink(ink) => fill(canvas, &outline(&ink.strokes, TOLERANCE), ink.colour, place, mask),
+        Item::Area(area) => fill(canvas, &area.path, area.colour, place),
+        Item::Ink(ink) => fill(canvas, &outline(&ink.strokes, TOLERANCE), ink.colour, place),
         Item::Text(text) => {
             let share = match text.anchor {
                 Anchor::Start => 0.0,
@@ -137,57 +137,81 @@ fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, mask: Option<&Mas
             let start =
                 text.at.to_vec2() - crate::geometry::Vec2::new(share * text_width(&text.text, text.size, font), 0.0);
             let path = Affine::translate(start) * text_outline(&text.text, text.size, font);
-            fill(canvas, &path, text.colour, place, mask);
+            fill(canvas, &path, text.colour, place);
         }
-        Item::Glow(glow) => paint_glow(canvas, glow, place, mask),
-        Item::Shared(shared) => shared.items().iter().for_each(|item| paint_item(canvas, item, place, mask, font)),
+        Item::Glow(glow) => paint_glow(canvas, glow, place),
+        Item::Shared(shared) => shared.items().iter().for_each(|item| paint_item(canvas, item, place, font)),
         Item::Group(group) => {
             let place = place * group.transform;
-            let clip = group.clip.as_ref().map(|path| clip_mask(canvas, path, place, mask));
-            for item in &group.items {
-                paint_item(canvas, item, place, clip.as_ref().or(mask), font);
+            match &group.clip {
+                Some(clip) => paint_clipped(canvas, clip, &group.items, place, font),
+                None => group.items.iter().for_each(|item| paint_item(canvas, item, place, font)),
             }
         }
         Item::Picture(raster) => super::raster::paint(canvas, raster, place, mask),
     }
 }
 
-/// What may be painted inside `path`, and inside the mask that holds outside it.
-fn clip_mask(canvas: &Pixmap, path: &BezPath, place: Affine, outer: Option<&Mask>) -> Mask {
-    let path = skia_path(path, place);
-    let mask = match outer {
-        Some(outer) => {
-            let mut mask = outer.clone();
-            match path {
-                Some(path) => mask.intersect_path(&path, FillRule::Winding, true, Transform::identity()),
-                None => mask.clear(),
-            }
-            Some(mask)
-        }
-        None => Mask::new(canvas.width(), canvas.height()).map(|mut mask| {
-            if let Some(path) = path {
-                mask.fill_path(&path, FillRule::Winding, true, Transform::identity());
-            }
-            mask
-        }),
-    };
-    // A mask has the size of a canvas that exists, so it can be made; one pixel stands for none.
-    mask.unwrap_or_else(|| Mask::from_pixmap(canvas.as_ref(), tiny_skia::MaskType::Alpha))
+/// Paints what is seen through `clip`: on a sheet of the clip's own size, which is cut by it and then laid down. So
+/// the edges of what lies over each other inside do not show through at the clip's.
+fn paint_clipped(canvas: &mut Pixmap, clip: &BezPath, items: &[Item], place: Affine, font: Option<&FontFile>) {
+    let frame = Rect::new(0.0, 0.0, f64::from(canvas.width()), f64::from(canvas.height()));
+    let bounds = (place * clip).control_box().expand().intersect(frame);
+    // An empty path's box is not finite; outside the canvas nothing is left of it.
+    if !bounds.is_finite() || bounds.width() < 1.0 || bounds.height() < 1.0 {
+        return;
+    }
+    let (wide, high) = (bounds.width() as u32, bounds.height() as u32);
+    let (Some(mut sheet), Some(mut mask)) = (Pixmap::new(wide, high), Mask::new(wide, high)) else { return };
+    let place = Affine::translate(-bounds.origin().to_vec2()) * place;
+    let Some(path) = skia_path(clip, place) else { return };
+    mask.fill_path(&path, FillRule::Winding, true, Transform::identity());
+    items.iter().for_each(|item| paint_item(&mut sheet, item, place, font));
+    lay_down(canvas, &sheet, &mask, bounds.x0 as usize, bounds.y0 as usize);
 }
 
-fn fill(canvas: &mut Pixmap, path: &BezPath, colour: Colour, place: Affine, mask: Option<&Mask>) {
+/// Lays a sheet on the canvas at (`x`, `y`), where it fits whole, as far as its mask lets through: source over, on
+/// premultiplied bytes. tiny-skia's own ways, which do more, take ten times as long.
+fn lay_down(canvas: &mut Pixmap, sheet: &Pixmap, mask: &Mask, x: usize, y: usize) {
+    let (wide, across) = (sheet.width() as usize, canvas.width() as usize);
+    let rows = sheet.data().chunks_exact(4 * wide).zip(mask.data().chunks_exact(wide));
+    let below = canvas.data_mut()[4 * across * y..].chunks_exact_mut(4 * across);
+    for ((row, cover), onto) in rows.zip(below) {
+        let onto = onto[4 * x..4 * (x + wide)].chunks_exact_mut(4);
+        for ((source, cover), pixel) in row.chunks_exact(4).zip(cover).zip(onto) {
+            let alpha = share(source[3], *cover);
+            match alpha {
+                0 => {}
+                255 => pixel.copy_from_slice(source),
+                _ => {
+                    for (to, from) in pixel.iter_mut().zip(source) {
+                        *to = share(*from, *cover) + share(*to, 255 - alpha);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `value × part / 255`, rounded.
+fn share(value: u8, part: u8) -> u8 {
+    let product = u32::from(value) * u32::from(part) + 128;
+    ((product + (product >> 8)) >> 8) as u8
+}
+
+fn fill(canvas: &mut Pixmap, path: &BezPath, colour: Colour, place: Affine) {
     if colour.a == 0 {
         return;
     }
     if let Some(path) = skia_path(path, place) {
         let mut paint = Paint::default();
         paint.set_color(skia_colour(colour));
-        canvas.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), mask);
+        canvas.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
     }
 }
 
 /// A colour that fades from the middle of an ellipse to nothing at its rim.
-fn paint_glow(canvas: &mut Pixmap, glow: &Glow, place: Affine, mask: Option<&Mask>) {
+fn paint_glow(canvas: &mut Pixmap, glow: &Glow, place: Affine) {
     let radii = glow.radii;
     if glow.colour.a == 0 || radii.x <= 0.0 || radii.y <= 0.0 {
         return;
@@ -204,7 +228,7 @@ fn paint_glow(canvas: &mut Pixmap, glow: &Glow, place: Affine, mask: Option<&Mas
     let ellipse = Ellipse::new(glow.at, radii, 0.0).to_path(1e-3);
     if let Some(path) = skia_path(&ellipse, place) {
         let paint = Paint { shader, ..Paint::default() };
-        canvas.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), mask);
+        canvas.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
     }
 }
 

@@ -93,7 +93,7 @@ impl Body {
         };
         vec![
             Item::area("neck-shade", cast(Vec2::new(5.0, 20.0)), pen.palette.shade),
-            Item::area("neck-shadow", cast(Vec2::new(3.0, 7.0)), pen.palette.deep.faded(0.45)),
+            Item::area("neck-shadow", cast(Vec2::new(3.0, 7.0)), pen.palette.under_chin),
         ]
     }
 

@@ -1,64 +1,66 @@
 //! A pose becomes the drawing of a cartoon: sheets back to front, still ones first (thesis 7.3.1, 7.3.2).
 
+use super::head::Outline;
 use super::{BrowStyle, Cartoon, Sheet, brow, eye, mouth, skin, wrinkles};
 use crate::drawing::{Drawing, Item, Layer};
+use crate::face::FeaturePoint as P;
 use crate::face::rig::{Deformed, Proportions};
 use crate::figure::describe;
 use crate::geometry::{Affine, BezPath, PathEl, Point, Vec2, brush, flattened};
 use crate::pose::Pose;
 
+/// A chin that has come down by less than this, in face units, rests.
+const RESTS: f64 = 0.05;
+
 impl Cartoon {
     /// The drawing of a pose: what stays the same on the layer `static`, what moves on `dynamic`. While the head rests,
-    /// hair behind it, neck, shirt and ears are still; when it moves, the body stays and the neck follows at its upper
+    /// all but mouth, jaw, eyes and brows is still; when it moves, the body stays and the neck follows at its upper
     /// end.
     #[must_use]
     pub fn draw(&self, pose: &Pose) -> Drawing {
-        let face = self.neutral.pose(pose);
+        let mut face = self.neutral.pose(pose);
+        // The chin comes down from where it rests and never rises above it: under it is the still face's.
+        let (chin, rest) = (P::P2_1, self.neutral.points()[P::P2_1]);
+        face.points[chin].y = face.points[chin].y.max(rest.y);
+        let dropped = face.points[chin].y > rest.y + RESTS;
         let turned = face.head != Affine::IDENTITY;
         let outline = self.head.outline(&face.points);
-        let (mut still, mut moving) = (Vec::new(), Vec::new());
-        let on_head = |items: Vec<Item>| {
-            if turned { vec![Item::moved("head", face.head, items)] } else { items }
+        let shadow = || self.body.shadow(&self.pen, &outline.lower(), face.head);
+
+        let mut ground = self.sheet(Sheet::Ground, vec![self.still.ground.clone()]);
+        let behind = self.sheet(Sheet::HairBehind, vec![self.still.behind.clone()]);
+        let shirt = self.sheet(Sheet::Shirt, vec![self.still.shirt.clone()]);
+        let neck = if turned {
+            let mut neck = self.body.neck(&self.pen, face.head);
+            neck.extend(shadow());
+            neck
+        } else {
+            vec![self.still.neck.clone()]
         };
-        still.extend(self.sheet(Sheet::Ground, vec![self.still.ground.clone()]));
+        let neck = self.sheet(Sheet::Neck, neck);
 
-        let body = if turned { &mut moving } else { &mut still };
-        body.extend(on_head(self.sheet(Sheet::HairBehind, vec![self.still.behind.clone()])));
-        let neck = if turned { Item::shared(self.body.neck(&self.pen, face.head)) } else { self.still.neck.clone() };
-        body.extend(self.sheet(Sheet::Neck, vec![neck]));
-        // The shirt starts below the chin's shadow, which moves and lies over it nowhere.
-        body.extend(self.sheet(Sheet::Shirt, vec![self.still.shirt.clone()]));
-        if !turned {
-            body.push(self.still.ears.clone());
+        // What of the head is still while it rests.
+        let mut head = vec![self.still.ears.clone()];
+        head.extend(self.own(Sheet::Face, false));
+        head.push(self.still.face.clone());
+        if self.still.hair_is_clear {
+            head.extend(self.own(Sheet::Hair, false));
+            head.push(self.still.hair.clone());
         }
-
-        moving.extend(self.body.shadow(&self.pen, &outline.lower(), face.head));
-        let mut head = Vec::with_capacity(64);
-        if turned {
-            head.push(self.still.ears.clone());
-        }
-        let mut on_face = skin::skin(&self.pen, &outline);
-        on_face.extend(skin::blush(&self.pen, &face.points, &outline, face.expression.cheek.clamp(0.0, 1.0)));
-        on_face.push(self.still.sockets.clone());
-        on_face.extend(self.still.scalp.clone());
-        if let Some(beard) = &self.beard {
-            on_face.extend(beard.draw(&self.pen, &face.points, self.neutral.units(), &outline));
-        }
-        on_face.extend(skin::contour(&self.pen, &outline, &face.points));
-        on_face.extend(skin::folds(&self.pen, &face.points, self.neutral.units(), self.style.folds));
-        on_face.push(self.still.nose.clone());
-        on_face.extend(wrinkles::wrinkles(&face, &self.pen.palette, self.pen.ink));
-        on_face.extend(mouth::mouth(&face.mouth, &self.pen.palette, self.pen.ink, self.pen.ink_only));
-        for one in &face.eyes {
-            on_face.extend(eye::eye(one, &self.pen.palette, self.pen.ink, self.pen.ink_only));
-        }
-        head.extend(self.sheet(Sheet::Face, on_face));
-        let mut over = vec![self.still.hair.clone()];
-        over.extend(self.brows(&face));
-        over.extend(self.still.glasses.clone());
-        head.extend(self.sheet(Sheet::Hair, over));
-        moving.extend(on_head(head));
-
+        let mut moving = self.moving_face(&face, &outline, dropped);
+        let (still, moving) = if turned {
+            let mut items = vec![Item::moved("hair-behind", face.head, behind)];
+            items.extend(neck.into_iter().chain(shirt));
+            head.append(&mut moving);
+            items.push(Item::moved("head", face.head, head));
+            (ground, items)
+        } else {
+            ground.extend(behind.into_iter().chain(neck).chain(shirt).chain(head));
+            if dropped {
+                moving.splice(0..0, shadow());
+            }
+            (ground, moving)
+        };
         Drawing {
             view: self.view,
             title: self.title.clone(),
@@ -71,15 +73,47 @@ impl Cartoon {
         }
     }
 
+    /// Jaw, beard, mouth, eyes and brows, and the hair where it lies over one of them.
+    fn moving_face(&self, face: &Deformed, outline: &Outline, dropped: bool) -> Vec<Item> {
+        let (pen, points) = (&self.pen, &face.points);
+        let mut items = Vec::with_capacity(56);
+        if dropped {
+            let nose = points[P::P9_15].y;
+            items.extend(skin::lower(pen, outline, nose + 0.35 * self.neutral.units().mouth_nose));
+        }
+        items.extend(skin::raised_cheeks(pen, points, outline, face.expression.cheek.clamp(0.0, 1.0)));
+        if let Some(beard) = &self.beard {
+            items.extend(beard.draw(pen, points, self.neutral.units(), outline));
+        }
+        items.extend(skin::contour(pen, outline, points));
+        items.extend(skin::folds(pen, points, self.neutral.units(), self.style.folds));
+        items.extend(wrinkles::wrinkles(face, &pen.palette, pen.ink));
+        items.extend(mouth::mouth(&face.mouth, &pen.palette, pen.ink, pen.ink_only));
+        for one in &face.eyes {
+            items.extend(eye::eye(one, &pen.palette, pen.ink, pen.ink_only));
+        }
+        items.extend(self.own(Sheet::Face, true));
+        if !self.still.hair_is_clear {
+            items.extend(self.own(Sheet::Hair, false));
+            items.push(self.still.hair.clone());
+        }
+        items.extend(self.brows(face));
+        items.extend(self.still.glasses.clone());
+        items.extend(self.own(Sheet::Hair, true));
+        items
+    }
+
     /// A sheet with what an author has put under and over it.
     fn sheet(&self, sheet: Sheet, items: Vec<Item>) -> Vec<Item> {
         if self.extras.is_empty() {
             return items;
         }
-        let own = |over: bool| {
-            self.extras.iter().filter(move |e| e.sheet == sheet && e.over == over).flat_map(|e| e.items.iter().cloned())
-        };
-        own(false).chain(items).chain(own(true)).collect()
+        self.own(sheet, false).chain(items).chain(self.own(sheet, true)).collect()
+    }
+
+    /// What an author has put under or over a sheet.
+    fn own(&self, sheet: Sheet, over: bool) -> impl Iterator<Item = Item> {
+        self.extras.iter().filter(move |e| e.sheet == sheet && e.over == over).flat_map(|e| e.items.iter().cloned())
     }
 
     fn brows(&self, face: &Deformed) -> Vec<Item> {

@@ -96,16 +96,42 @@ impl Outline {
         path
     }
 
-    /// The line from the left ear's lower half under the chin to the right ear's.
+    /// The line from the left lobe under the chin to the right lobe.
     pub(super) fn jaw_line(&self) -> Vec<Point> {
         let mut line = self.line(&[6, 7, 0, 1]);
-        let (left, right) = (samples(&self.0[2]), samples(&self.0[5]));
-        let mut whole: Vec<Point> = right[SAMPLES - 6..SAMPLES].to_vec();
-        whole.append(&mut line);
-        whole.extend(&left[1..7]);
-        // Image left to right, as it is drawn.
-        whole.reverse();
-        whole
+        line.reverse();
+        line
+    }
+
+    /// The line from half the left ear down to where the cheek begins to move, and the same at the right.
+    pub(super) fn cheeks(&self) -> [Vec<Point>; 2] {
+        let mut left = self.line(&[1, 2]);
+        left.reverse();
+        let right = self.line(&[5, 6]);
+        [left, right].map(|l| l[SAMPLES / 2..SAMPLES + SAMPLES / 2].to_vec())
+    }
+
+    /// The face below a height, down to the chin.
+    pub(super) fn below(&self, y: f64) -> BezPath {
+        let mut path = BezPath::new();
+        let line = self.lower();
+        for (i, p) in line.iter().enumerate() {
+            if p.y < y {
+                continue;
+            }
+            let crossed = |from: &Point| from.lerp(*p, ((y - from.y) / (p.y - from.y)).clamp(0.0, 1.0));
+            match i.checked_sub(1).map(|k| line[k]).filter(|q| q.y < y) {
+                Some(before) => path.move_to(crossed(&before)),
+                None if path.elements().is_empty() => path.move_to(*p),
+                None => {}
+            }
+            path.line_to(*p);
+            if let Some(after) = line.get(i + 1).filter(|q| q.y < y) {
+                path.line_to(crossed(after));
+            }
+        }
+        path.close_path();
+        path
     }
 
     /// The lower face, from the left ear's top under the chin to the right ear's top.
@@ -121,9 +147,10 @@ impl Outline {
     }
 
     /// The edge of the face in shade when light comes from the upper left: what the outline covers and the same moved
-    /// by `-by` does not, built as the way of one edge, so that no clip is needed.
-    pub(super) fn shaded(&self, by: Vec2) -> BezPath {
-        let round = self.line(&[4, 5, 6, 7, 0]);
+    /// by `-by` does not, built as the way of one edge, so that no clip is needed. Nothing of the edge above `from`.
+    pub(super) fn shaded(&self, by: Vec2, from: f64) -> BezPath {
+        let mut round = self.line(&[4, 5, 6, 7, 0]);
+        round.retain(|p| p.y >= from);
         let faces = |w: &[Point]| {
             let along = w[1] - w[0];
             Vec2::new(along.y, -along.x).dot(by) > 0.0

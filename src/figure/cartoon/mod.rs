@@ -28,7 +28,7 @@ pub use style::{BrowStyle, HairCurve, NoseStyle, STYLE_FORMAT, Style};
 use crate::drawing::{Item, Oklch};
 use crate::face::rig::Neutral;
 use crate::face::{Face, FeaturePoint as P, HairKind, Points, to_face_frame};
-use crate::geometry::{Point, Rect, brush};
+use crate::geometry::{Affine, Point, Rect, brush};
 
 /// Ink is so wide, in half widths of the jaw.
 const INK: f64 = 0.025;
@@ -80,10 +80,11 @@ struct Still {
     neck: Item,
     shirt: Item,
     ears: Item,
-    scalp: Option<Item>,
-    sockets: Item,
-    nose: Item,
+    /// The face at rest without what moves on it.
+    face: Item,
     hair: Item,
+    /// Whether the hair stays clear of what moves, and so can lie under it.
+    hair_is_clear: bool,
     glasses: Option<Item>,
 }
 
@@ -214,22 +215,30 @@ impl Cartoon {
             style.beard == style::Choice::Yes,
         );
         let beard = growth.filter(|_| style.beard != style::Choice::No);
-        let scalp = (!hair.is_some()).then(|| {
-            let tinted = kind != HairKind::Bald;
-            Item::shared(hair::scalp(&pen, points, &head, &outline, tinted))
-        });
         let glasses = style.glasses.or(face.measures.glasses > 0.5);
+        let mut skin = skin::skin(&pen, &outline);
+        skin.extend(skin::blush(&pen, points, &outline));
+        skin.extend(skin::sockets(&pen, points));
+        if !hair.is_some() {
+            skin.extend(hair::scalp(&pen, points, &head, &outline, kind != HairKind::Bald));
+        }
+        skin.extend(skin::cheek_lines(&pen, &outline));
+        skin.extend(nose::nose(&pen, points, neutral.units(), style.nose));
+        if glasses {
+            skin.extend(glasses::arms(&pen, &neutral, &head));
+        }
+        let mut neck = body.neck(&pen, Affine::IDENTITY);
+        neck.extend(body.shadow(&pen, &outline.lower(), Affine::IDENTITY));
         let still = Still {
             ground: Item::shared(if style.disc { vec![body::Body::disc(&pen)] } else { Vec::new() }),
             behind: Item::shared(hair.behind(&pen)),
-            neck: Item::shared(body.neck(&pen, crate::geometry::Affine::IDENTITY)),
+            neck: Item::shared(neck),
             shirt: Item::shared(body.shirt(&pen)),
             ears: Item::shared(ear::ears(&pen, points, &head)),
-            scalp,
-            sockets: Item::shared(skin::sockets(&pen, points)),
-            nose: Item::shared(nose::nose(&pen, points, neutral.units(), style.nose)),
+            face: Item::shared(skin),
+            hair_is_clear: hair.clear_of(points),
             hair: Item::shared(hair.before(&pen, points, style.strands)),
-            glasses: glasses.then(|| Item::shared(glasses::glasses(&pen, &neutral, &head))),
+            glasses: glasses.then(|| Item::shared(glasses::glasses(&pen, &neutral))),
         };
         let mut cartoon = Self {
             title: format!("cartoon, {}", style.title),

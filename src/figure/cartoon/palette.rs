@@ -42,6 +42,7 @@ palette! {
     skin "Skin in the light";
     shade "Skin away from the light";
     deep "Skin in a shadow, such as the chin's on the neck";
+    under_chin "The darkest of that shadow";
     light "Skin that shines: the bridge of the nose";
     blush "Cheeks";
     line "Thin ink on skin";
@@ -94,6 +95,7 @@ impl Palette {
         let step = (skin.l / DARK).min(1.0);
         p.shade = on_skin(-0.075 * step, 0.018, -6.0);
         p.deep = on_skin(-0.15 * step, 0.03, -9.0);
+        p.under_chin = on_skin(-0.109 * step, 0.0235, -7.3);
         p.light = Oklch::new((skin.l + if dark { 0.075 } else { 0.05 }).min(0.97), skin.c * 0.8, skin.h + 4.0).colour();
         p.blush = on_skin(-0.04, if dark { 0.03 } else { 0.05 }, -24.0);
         p.ink = Oklch::new((0.42 * skin.l - 0.10).max(0.14), (0.75 * skin.c).min(0.06), skin.h - 14.0).colour();

@@ -14,22 +14,40 @@ const LIGHT: Vec2 = Vec2::new(7.5, 4.5);
 pub(super) fn skin(pen: &Pen, outline: &Outline) -> Vec<Item> {
     let mut items = vec![Item::area("face", outline.path(), pen.palette.skin)];
     if !pen.ink_only {
-        items.push(Item::area("face-shade", outline.shaded(LIGHT), pen.palette.shade));
+        items.push(Item::area("face-shade", outline.shaded(LIGHT, f64::MIN), pen.palette.shade));
     }
     items
 }
 
-/// Cheeks under the outer half of the eyes, `up` higher when they are raised.
-pub(super) fn blush(pen: &Pen, points: &Points, outline: &Outline, up: f64) -> Vec<Item> {
+/// The skin of the lower face again, below a height, where the chin has come down.
+pub(super) fn lower(pen: &Pen, outline: &Outline, from: f64) -> Vec<Item> {
+    let mut items = vec![Item::area("jaw", outline.below(from), pen.palette.skin)];
+    if !pen.ink_only {
+        items.push(Item::area("jaw-shade", outline.shaded(LIGHT, from - 6.0), pen.palette.shade));
+    }
+    items
+}
+
+/// Cheeks under the outer half of the eyes.
+pub(super) fn blush(pen: &Pen, points: &Points, outline: &Outline) -> Vec<Item> {
+    cheeks(pen, points, outline, 0.0, 0.38)
+}
+
+/// What raised cheeks add, from 0 to 1.
+pub(super) fn raised_cheeks(pen: &Pen, points: &Points, outline: &Outline, raised: f64) -> Vec<Item> {
+    if raised < 0.02 { Vec::new() } else { cheeks(pen, points, outline, 5.0 * raised, 0.24 * raised) }
+}
+
+fn cheeks(pen: &Pen, points: &Points, outline: &Outline, up: f64, cover: f64) -> Vec<Item> {
     if pen.ink_only {
         return Vec::new();
     }
     let spot = |eye: P, wing: P| {
-        let middle = at(1.16 * points[eye].x, 0.88 * points[wing].y - 4.0 * up);
+        let middle = at(1.16 * points[eye].x, 0.88 * points[wing].y - up);
         // A glow that ran over the edge would lie on the ear.
         let room = outline.half_width(middle.y) - middle.x.abs();
         let radii = Vec2::new(30f64.min(room - 1.0), 21.0);
-        Item::glow("blush", middle, radii, pen.palette.blush.faded(0.38))
+        Item::glow("blush", middle, radii, pen.palette.blush.faded(cover))
     };
     vec![spot(P::P3_6, P::P9_2), spot(P::P3_5, P::P9_1)]
 }
@@ -56,9 +74,14 @@ pub(super) fn sockets(pen: &Pen, points: &Points) -> Vec<Item> {
     vec![one(P::P3_8, P::P3_12, P::P4_2, -1.0), one(P::P3_11, P::P3_7, P::P4_1, 1.0)]
 }
 
-/// The ink from ear to ear: heavy at the jaw, thin up the sides; and the dimple of the chin.
+/// The ink in front of the ears, down to where the cheeks begin to move.
+pub(super) fn cheek_lines(pen: &Pen, outline: &Outline) -> Vec<Item> {
+    outline.cheeks().into_iter().map(|line| pen.line("cheek", &line, 1.15, &[0.1, 0.7, 0.8, 0.2])).collect()
+}
+
+/// The ink from lobe to lobe, heavy at the jaw; and the dimple of the chin.
 pub(super) fn contour(pen: &Pen, outline: &Outline, points: &Points) -> Vec<Item> {
-    const PROFILE: [f64; 9] = [0.1, 0.75, 0.85, 1.0, 1.0, 1.0, 0.9, 0.8, 0.1];
+    const PROFILE: [f64; 9] = [0.55, 0.85, 0.95, 1.0, 1.0, 1.0, 0.95, 0.85, 0.55];
     let ink = brush_in_steps(&outline.jaw_line(), 1.15 * pen.ink, &PROFILE, 25);
     let (lip, chin) = (points[P::P8_2], points[P::P2_1]);
     let high = chin.y - lip.y;

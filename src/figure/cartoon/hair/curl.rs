@@ -79,16 +79,16 @@ pub(super) fn curls(pen: &Pen, outlines: &[&[Point]], centre: Point, amount: f64
                 std::array::from_fn(|i| p + Vec2::from_angle(towards - 1.3 + 0.65 * i as f64) * radius);
             let lighter = !pen.ink_only && p.x < 10.0 && p.y < -60.0 && lit < 0.55;
             let (path, width) = if lighter { (&mut light, 1.9) } else { (&mut dark, 1.15) };
-            path.extend(brush_in_steps(&ring, width * pen.ink, &[0.0, 1.0, 0.8, 0.0], 6));
+            path.extend(brush_in_steps(&ring, width * pen.ink, &[0.0, 1.0, 0.8, 0.0], 5));
         }
     }
     let colours = &pen.palette;
     // On dark hair strands are lighter than it, which curls that overlap cannot be.
     let ink = if colours.strand == colours.hair_light { colours.hair_ink } else { colours.strand };
-    let ink = if pen.ink_only { colours.hair_ink } else { ink.faded(0.85) };
+    let ink = if pen.ink_only { colours.hair_ink } else { ink.over(colours.hair, 0.85) };
     let mut items = vec![Item::area("hair-curls", dark, ink)];
     if !pen.ink_only {
-        items.push(Item::area("hair-light", light, colours.hair_light.faded(0.85)));
+        items.push(Item::area("hair-light", light, colours.hair_light.over(colours.hair, 0.85)));
     }
     items
 }

@@ -8,15 +8,15 @@ use crate::geometry::{BezPath, Point, spline};
 
 /// The soft shades under the strands.
 pub(super) fn shades(pen: &Pen, rays: &Rays) -> Vec<Item> {
-    let (crown, last, shade) = (Rays::CROWN, rays.runs.len(), pen.palette.hair_shade);
+    let (crown, last, shade, hair) = (Rays::CROWN, rays.runs.len(), pen.palette.hair_shade, pen.palette.hair);
     let mut toward = BezPath::new();
     for run in [crown + 2..last - 1, 1..crown - 2] {
         toward.extend(band(rays, run, |t| (-0.08, 0.17 * swell(t))));
     }
     let far = band(rays, 1..crown - 4, |t| (1.0 - 0.30 * swell(t), 1.1));
     let under = band(rays, crown + 22..last, |t| (1.0 - 0.16 * swell(t), 1.1));
-    let mut items = vec![Item::area("hair-shade", toward, shade), Item::area("hair-far", far, shade.faded(0.85))];
-    items.push(Item::area("hair-under", under, shade.faded(0.6)));
+    let mut items = vec![Item::area("hair-shade", toward, shade), Item::area("hair-far", far, shade.over(hair, 0.85))];
+    items.push(Item::area("hair-under", under, shade.over(hair, 0.6)));
     items
 }
 

@@ -37,6 +37,7 @@ impl Hair {
             HairKind::Curly => {
                 curl::scallops(&Contour::new(outline, HairCurve::Tufts, None).line, if behind { 17.0 } else { 15.0 })
             }
+            HairKind::Wavy => Contour::new(outline, curve, None).waved(points[P::P4_4].y),
             _ => Contour::new(outline, curve, Some((points[P::P4_4].y, behind))),
         };
         let (mut front, mut back) = (Vec::new(), Vec::new());
@@ -61,6 +62,15 @@ impl Hair {
         !self.front.is_empty()
     }
 
+    /// Whether it stays clear of what moves: it ends above the jaw, and no fringe hides the forehead.
+    pub(super) fn clear_of(&self, points: &Points) -> bool {
+        let lobe = points[P::P10_6].y.midpoint(points[P::P10_5].y);
+        let lowest = self.front.iter().flat_map(|c| &c.line).map(|p| p.y).fold(f64::MIN, f64::max);
+        let brows = points[P::P4_4].y.min(points[P::P4_3].y);
+        let forehead = [-30.0, -12.0, 0.0, 12.0, 30.0].map(|x| at(x, brows - 16.0));
+        lowest < lobe + 4.0 && !forehead.iter().any(|p| self.front.iter().any(|c| c.path.contains(*p)))
+    }
+
     /// The box round it; none without hair.
     pub(super) fn bounds(&self) -> Option<Rect> {
         let boxes = self.front.iter().chain(&self.back).map(|c| c.path.bounding_box());
@@ -71,10 +81,9 @@ impl Hair {
     pub(super) fn behind(&self, pen: &Pen) -> Vec<Item> {
         let mut items = Vec::new();
         for contour in &self.back {
-            items.push(Item::area("hair-back", contour.path.clone(), pen.palette.hair_shade));
-            if !pen.ink_only {
-                items.push(Item::area("hair-back-shade", contour.path.clone(), pen.palette.hair_ink.faded(0.22)));
-            }
+            let shade = pen.palette.hair_shade;
+            let colour = if pen.ink_only { shade } else { pen.palette.hair_ink.over(shade, 0.22) };
+            items.push(Item::area("hair-back", contour.path.clone(), colour));
             items.push(ring("hair-back-line", contour, pen, 0.8));
         }
         items
@@ -111,7 +120,7 @@ impl Hair {
 fn ring(name: &str, contour: &Contour, pen: &Pen, width: f64) -> Item {
     let width = width * pen.ink;
     let ink = brush_ring(&contour.line, |outward| width * (1.0 + 0.28 * (0.5 * outward.x + 0.86 * outward.y)));
-    Item::area(name, ink, pen.palette.hair_ink.faded(if pen.ink_only { 1.0 } else { 0.95 }))
+    Item::area(name, ink, pen.palette.hair_ink)
 }
 
 /// The points on a ray at a level between hairline (0) and silhouette (1).

@@ -2,7 +2,7 @@
 
 use super::tips::{domed, tipped};
 use crate::figure::cartoon::style::HairCurve;
-use crate::geometry::{BezPath, CubicBez, ParamCurve, PathEl, Point, Vec2, cut_corners, simplify};
+use crate::geometry::{BezPath, CubicBez, ParamCurve, PathEl, Point, Vec2, cut_corners, simplify, spline};
 
 /// Vertices closer to the line than this are left out, in face units: 50 to 60 remain, and show all there is to see.
 const TOLERANCE: f64 = 2.3;
@@ -41,6 +41,35 @@ impl Contour {
                 Self { path, line }
             }
         }
+    }
+}
+
+/// Waves of the silhouette: so far out and in, and so long, in face units.
+const WAVE: (f64, f64) = (3.0, 34.0);
+
+impl Contour {
+    /// The same in waves where it is the silhouette, which lies away from the middle of the brows.
+    pub(super) fn waved(self, brows: f64) -> Self {
+        let n = self.line.len();
+        let turn: f64 = (0..n).map(|i| self.line[i].to_vec2().cross(self.line[(i + 1) % n].to_vec2())).sum();
+        let length: f64 = (0..n).map(|i| self.line[i].distance(self.line[(i + 1) % n])).sum();
+        // A whole number of waves, so that the last meets the first.
+        let waves = (length / WAVE.1).round().max(1.0) / length.max(1.0) * std::f64::consts::TAU;
+        let mut gone = 0.0;
+        let line: Vec<Point> = (0..n)
+            .map(|i| {
+                let (a, p, b) = (self.line[(i + n - 1) % n], self.line[i], self.line[(i + 1) % n]);
+                gone += a.distance(p);
+                let along = b - a;
+                let outward = Vec2::new(along.y, -along.x) * (turn.signum() / along.hypot().max(1e-6));
+                let from = p - Point::new(0.0, brows);
+                let silhouette = (outward.dot(from) / from.hypot().max(1e-6)).clamp(0.0, 1.0);
+                // Swelling and ebbing, or it looks cut with a pattern.
+                let high = WAVE.0 * (1.0 + 0.4 * (gone * waves / 3.7).sin());
+                p + outward * (high * silhouette * (gone * waves).sin())
+            })
+            .collect();
+        Self { path: spline(&line, true), line }
     }
 }
 

@@ -15,15 +15,16 @@ const FRINGE_RAYS: usize = 8;
 pub(super) fn strands(pen: &Pen, rays: &Rays, wavy: bool, amount: f64) -> Vec<Item> {
     let over_brow = (Rays::toward(45.0)..Rays::toward(140.0)).filter(|i| rays.depth(*i) > FRINGE);
     let fringe: Vec<usize> = over_brow.collect();
-    if fringe.len() > FRINGE_RAYS { falling(pen, rays, &fringe, wavy, amount) } else { combed(pen, rays, amount) }
+    if fringe.len() > FRINGE_RAYS { falling(pen, rays, &fringe, wavy, amount) } else { combed(pen, rays, wavy, amount) }
 }
 
 /// Hair away from the face: strands that keep their level between hairline and silhouette, at uneven distances, since
 /// even ones look like a pleated curtain.
-fn combed(pen: &Pen, rays: &Rays, amount: f64) -> Vec<Item> {
+fn combed(pen: &Pen, rays: &Rays, wavy: bool, amount: f64) -> Vec<Item> {
     let (crown, last) = (Rays::CROWN, rays.runs.len());
     let mut dice = Dice(5);
     let (mut thin, mut light) = (Brushes::new(rays, pen.ink), Brushes::new(rays, 4.0));
+    (thin.wavy, light.wavy) = (wavy, wavy);
     for side in [crown..last - 2, 2..crown] {
         let left = side.start == crown;
         let mut level = 0.10;
@@ -54,7 +55,7 @@ fn combed(pen: &Pen, rays: &Rays, amount: f64) -> Vec<Item> {
     }
     let mut items = Vec::new();
     if !pen.ink_only {
-        items.push(light.item("hair-light", pen.palette.hair_light.faded(0.75)));
+        items.push(light.item("hair-light", pen.palette.hair_light.over(pen.palette.hair, 0.75)));
     }
     items.push(thin.item("hair-strands", strand_colour(pen)));
     items
@@ -123,25 +124,26 @@ fn falling(pen: &Pen, rays: &Rays, fringe: &[usize], wavy: bool, amount: f64) ->
     }
     let mut items = vec![thin.item("hair-strands", strand_colour(pen))];
     if !pen.ink_only {
-        items.push(light.item("hair-light", pen.palette.hair_light.faded(0.6)));
+        items.push(light.item("hair-light", pen.palette.hair_light.over(pen.palette.hair, 0.6)));
     }
     items
 }
 
 fn strand_colour(pen: &Pen) -> Colour {
-    if pen.ink_only { pen.palette.hair_ink } else { pen.palette.strand.faded(0.85) }
+    if pen.ink_only { pen.palette.hair_ink } else { pen.palette.strand.over(pen.palette.hair, 0.85) }
 }
 
 /// Strokes of one colour, gathered into one path: where they cross they do not darken.
 struct Brushes<'a> {
     rays: &'a Rays,
     width: f64,
+    wavy: bool,
     path: BezPath,
 }
 
 impl<'a> Brushes<'a> {
     fn new(rays: &'a Rays, width: f64) -> Self {
-        Self { rays, width, path: BezPath::new() }
+        Self { rays, width, wavy: false, path: BezPath::new() }
     }
 
     fn item(self, name: &str, colour: Colour) -> Item {
@@ -169,7 +171,10 @@ impl<'a> Brushes<'a> {
                     ((before[i - 1].to_vec2() + before[i].to_vec2() * 2.0 + before[i + 1].to_vec2()) / 4.0).to_point();
             }
         }
-        self.path.extend(brush_in_steps(&line, self.width, profile, 13));
+        if self.wavy {
+            line = waved(&line, levels.0 * 40.0, 2.6);
+        }
+        self.path.extend(brush_in_steps(&line, self.width, profile, if self.wavy { 25 } else { 9 }));
     }
 
     /// A strand along a ray, bending over to another one.
@@ -184,22 +189,22 @@ impl<'a> Brushes<'a> {
             })
             .collect();
         if wavy {
-            line = waved(&line, from as f64);
+            line = waved(&line, from as f64, 3.2);
         }
-        self.path.extend(brush_in_steps(&line, self.width, profile, if wavy { 17 } else { 9 }));
+        self.path.extend(brush_in_steps(&line, self.width, profile, if wavy { 17 } else { 7 }));
     }
 }
 
-/// A line with waves 3.2 units across and 47 long, smaller where it starts.
-fn waved(line: &[Point], phase: f64) -> Vec<Point> {
-    const POINTS: usize = 18;
+/// A line with waves 47 units long, smaller where it starts.
+fn waved(line: &[Point], phase: f64, across: f64) -> Vec<Point> {
+    const POINTS: usize = 25;
     let points = equal_steps(&flattened(&spline(line, false)), POINTS, false);
     let along: Vec2 = points[POINTS - 1] - points[0];
     let length = along.hypot();
     let aside = Vec2::new(-along.y, along.x) / length.max(1.0);
     let waves = points.iter().enumerate().map(|(i, p)| {
         let t = i as f64 / (POINTS - 1) as f64;
-        *p + aside * (3.2 * (0.3 + 0.7 * t) * (t * length / 7.5 + phase).sin())
+        *p + aside * (across * (0.3 + 0.7 * t) * (t * length / 7.5 + phase).sin())
     });
     waves.collect()
 }

@@ -12,6 +12,8 @@ const DOME: (f64, f64) = (0.24, 46.0);
 const TIP: f64 = 19.0;
 /// A lower end turns up at both its sides by at least this much.
 const RISE: f64 = 7.0;
+/// The cosine of the angle of a corner: 118° and less.
+const BLUNT: f64 = -0.47;
 /// Nearer to the middle than this is the neck.
 const NECK: f64 = 48.0;
 /// Lower ends as wide as this are none: hair that goes round the head.
@@ -73,11 +75,16 @@ pub(super) fn tipped(vertices: &[Point], brows: f64, behind: bool) -> Vec<Point>
         let (before, after) = (vertices[here], vertices[(edge + run + 1) % n]);
         let (first, last) = (line[0], line[line.len() - 1]);
         let length: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
-        if length < 5.0
-            || length > WIDEST
-            || before.y > first.y - RISE.min(length)
-            || after.y > last.y - RISE.min(length)
-        {
+        let rise = RISE.min(length);
+        let rises = [before.y <= first.y - rise, after.y <= last.y - rise];
+        let ends = rises == [true; 2] || (behind && rises.contains(&true));
+        // An end that was cut has a corner; one that is round is so by itself.
+        let corner = |a: Point, b: Point, c: Point| {
+            let (u, v) = (a - b, c - b);
+            u.dot(v) > BLUNT * u.hypot() * v.hypot()
+        };
+        let cut = corner(before, first, line[1]) || corner(line[line.len() - 2], last, after);
+        if !(5.0..=WIDEST).contains(&length) || !ends || !cut {
             i += 1;
             continue;
         }
