@@ -184,11 +184,7 @@ fn sheet(photo: &Photo, face: &Face) -> Result<Drawing> {
         parts.push((emotion.name().to_owned(), cartoon.draw(&Pose::of(Ratios::pure(emotion)))));
     }
     for shape in MouthShape::ALL {
-        let pose = Pose {
-            mouth: MouthPose::of(shape, MouthPreset::Distinct),
-            shape: Some(shape),
-            ..Pose::default()
-        };
+        let pose = Pose { mouth: MouthPose::of(shape, MouthPreset::Distinct), shape: Some(shape), ..Pose::default() };
         parts.push((format!("mouth {}", shape.letter()), cartoon.draw(&pose)));
     }
     parts.extend(stages);

@@ -38,12 +38,7 @@ impl fmt::Display for Warning {
 ///
 /// # Errors
 /// When no face can be drawn from it; says why, and what to do.
-pub fn create(
-    photo: &Photo,
-    sha256: &str,
-    kept: Option<&Face>,
-    anchors: Option<&Anchors>,
-) -> Result<Created, Refusal> {
+pub fn create(photo: &Photo, sha256: &str, kept: Option<&Face>, anchors: Option<&Anchors>) -> Result<Created, Refusal> {
     let hands: Vec<_> = kept.map(by_hand).unwrap_or_default();
     let found = match anchors {
         Some(anchors) => find_from(photo, anchors, &hands)?,
@@ -57,10 +52,7 @@ pub fn create(
         colours: measured.colours,
         measures: measured.measures,
         hair: measured.hair,
-        photo: PhotoRecord {
-            sha256: sha256.to_owned(),
-            size: [photo.width() as u32, photo.height() as u32],
-        },
+        photo: PhotoRecord { sha256: sha256.to_owned(), size: [photo.width() as u32, photo.height() as u32] },
     };
     trust_ears_as_far_as_seen(&mut face);
     if let Some(kept) = kept {

@@ -7,8 +7,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use sha2::{Digest, Sha256};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use sha2::{Digest, Sha256};
 
 use super::Photo;
 use crate::disk::{Fault, Result, read_bytes};

@@ -41,7 +41,8 @@ pub(super) fn cartoon(root: &Path, face: &LessonFace) -> Result<Figure> {
         return Ok(cartoon.into());
     }
     let view = cartoon.view();
-    let layers = face.entry.layers.iter().map(|entry| Ok(layer(root, entry)?.extra(view))).collect::<Result<Vec<_>>>()?;
+    let layers =
+        face.entry.layers.iter().map(|entry| Ok(layer(root, entry)?.extra(view))).collect::<Result<Vec<_>>>()?;
     Ok(cartoon.with(layers).into())
 }
 
@@ -70,8 +71,8 @@ fn own_file(root: &Path, key: &str, named: &str, else_do: &str) -> Result<std::p
     if path.is_file() {
         return Ok(path);
     }
-    let fault = Fault::new(format!("there is no file `{named}` in the lesson"))
-        .help(format!("put it there, or {else_do}"));
+    let fault =
+        Fault::new(format!("there is no file `{named}` in the lesson")).help(format!("put it there, or {else_do}"));
     Err(in_manifest(root, key, named, fault))
 }
 

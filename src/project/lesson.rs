@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use super::figures;
 use super::history::History;
 use super::journal::Journal;
-use super::figures;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::{Change, Clip, LessonFace};
 use crate::disk::{Fault, Lock, Result, nearest};

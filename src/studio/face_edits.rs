@@ -150,8 +150,7 @@ fn shift(state: &mut State, step: Vec2) {
     {
         let size = desk.photo.as_ref().map_or((0, 0), |p| (p.width(), p.height()));
         let cross = placing.cross + step;
-        placing.cross =
-            Point::new(cross.x.clamp(0.0, size.0 as f64 - 1.0), cross.y.clamp(0.0, size.1 as f64 - 1.0));
+        placing.cross = Point::new(cross.x.clamp(0.0, size.0 as f64 - 1.0), cross.y.clamp(0.0, size.1 as f64 - 1.0));
         return;
     }
     if !may_change(state) {
@@ -320,7 +319,8 @@ fn ask_point(state: &mut State) {
 pub(super) fn take_point(state: &mut State, typed: &str) -> Result<(), String> {
     let (_, lesson_face) = on_desk(state).ok_or("there is no face on the desk")?;
     let face = lesson_face.face.as_ref().ok_or("there are no points yet: r finds them")?;
-    let names: Vec<String> = FeaturePoint::all().filter(|p| face.placed(*p).is_some()).map(FeaturePoint::name).collect();
+    let names: Vec<String> =
+        FeaturePoint::all().filter(|p| face.placed(*p).is_some()).map(FeaturePoint::name).collect();
     match FeaturePoint::named(typed).filter(|p| face.placed(*p).is_some()) {
         Some(point) => {
             if let Some(desk) = &mut state.face {

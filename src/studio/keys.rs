@@ -5,7 +5,9 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::Action::{self, *};
 use super::action::Nudge;
-use Place::{Confirm, Export as Exporting, Face as Facing, Help as Helping, Lesson, Player, Projects, Prompt, Timeline};
+use Place::{
+    Confirm, Export as Exporting, Face as Facing, Help as Helping, Lesson, Player, Projects, Prompt, Timeline,
+};
 
 /// Where a key is pressed: a screen, or what lies on top of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,7 +149,12 @@ pub const TABLE: &[Row] = &[
     ),
     row(
         &[Facing],
-        &[("Shift-Left", Move(-10, 0)), ("Shift-Right", Move(10, 0)), ("Shift-Up", Move(0, -10)), ("Shift-Down", Move(0, 10))],
+        &[
+            ("Shift-Left", Move(-10, 0)),
+            ("Shift-Right", Move(10, 0)),
+            ("Shift-Up", Move(0, -10)),
+            ("Shift-Down", Move(0, 10)),
+        ],
         "",
         "move it by 10 pixels",
     ),

@@ -10,8 +10,8 @@ use ratatui::layout::Rect;
 
 use super::draw::{self, FaceLayout, Layout, Pictures};
 use super::execute::{Job, SILENT, execute};
-use super::face_desk::FaceDesk;
 use super::export::{Exporter, Progress};
+use super::face_desk::FaceDesk;
 use super::overlay::Overlay;
 use super::picture::FacePicture;
 use super::state::{Open, State};

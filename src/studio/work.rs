@@ -1,7 +1,7 @@
 //! Work in threads: opening a lesson, the outline of its sounds, exports. Each reports through one channel.
 
-use std::path::Path;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
@@ -11,8 +11,8 @@ use super::execute::Job;
 use super::export::Exporter;
 use super::studio::Report;
 use crate::disk::{Fault, Result};
-use crate::face::{Anchors, Created, Face};
 use crate::drawing::Drawing;
+use crate::face::{Anchors, Created, Face};
 use crate::geometry::Point;
 use crate::photo::{Photo, Stages};
 use crate::project::{Lesson, check};

@@ -55,7 +55,7 @@ pub(super) fn neck(regions: &Regions, shape: &Shape) -> f64 {
             let left = (0..middle).rev().take_while(|k| skin(row, *k)).last().unwrap_or(middle);
             let right = (middle..COLUMNS).take_while(|k| skin(row, *k)).last().unwrap_or(middle);
             let x = |column: usize| centre(row * COLUMNS + column).x - shape.points[P::P2_1].x;
-            -x(left) .max(-x(right))
+            -x(left).max(-x(right))
         })
         .collect();
     if widths.len() < 4 {
@@ -78,11 +78,13 @@ pub(super) fn brow_height(frame: &Frame, shape: &Shape) -> f64 {
         // The mean over nine columns, each shifted along the brow's slope.
         let profile: Vec<f32> = (-REACH..=REACH)
             .map(|dy| {
-                let tone = |dx: i32| frame.at(middle.x + f64::from(dx), middle.y + f64::from(dy) + slope * f64::from(dx))[0];
+                let tone =
+                    |dx: i32| frame.at(middle.x + f64::from(dx), middle.y + f64::from(dy) + slope * f64::from(dx))[0];
                 (-4..=4).map(tone).sum::<f32>() / 9.0
             })
             .collect();
-        let darkest = (6..profile.len() - 6).min_by(|i, j| profile[*i].total_cmp(&profile[*j])).unwrap_or(REACH as usize);
+        let darkest =
+            (6..profile.len() - 6).min_by(|i, j| profile[*i].total_cmp(&profile[*j])).unwrap_or(REACH as usize);
         // Below the brow lies the lid's shadow, so skin is what is lightest within a brow's height on either side.
         let above = profile[..darkest].iter().fold(0.0_f32, |m, v| m.max(*v));
         let below = profile[darkest..].iter().take(14).fold(0.0_f32, |m, v| m.max(*v));

@@ -51,7 +51,16 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
     let kind = kind(regions, shape, &head, &mask, skin);
     if kind == HairKind::Bald {
         let none = Mask::none();
-        return Found { kind, front: Vec::new(), vertices: Vec::new(), back: Vec::new(), mask: none, ears, top, colour: None };
+        return Found {
+            kind,
+            front: Vec::new(),
+            vertices: Vec::new(),
+            back: Vec::new(),
+            mask: none,
+            ears,
+            top,
+            colour: None,
+        };
     }
     // Short hair has no locks below the ears.
     let mask = if kind == HairKind::Shaved { Mask::of(|c| mask.0[c] && centre(c).y < shape.lobe) } else { mask };
@@ -166,7 +175,9 @@ fn pieces(mask: &Mask, shape: &Shape) -> Mask {
 /// With a window round the brows: those under a fringe could not act (recipe part 6).
 fn without_brows(mut mask: Mask, shape: &Shape) -> Mask {
     let p = &shape.points;
-    for (brow, eye) in [([P::P4_6, P::P4_4A, P::P4_4, P::P4_2], P::P3_6), ([P::P4_1, P::P4_3, P::P4_3A, P::P4_5], P::P3_5)] {
+    for (brow, eye) in
+        [([P::P4_6, P::P4_4A, P::P4_4, P::P4_2], P::P3_6), ([P::P4_1, P::P4_3, P::P4_3A, P::P4_5], P::P3_5)]
+    {
         let mut window: Vec<Point> = brow.iter().map(|b| p[*b] - Vec2::new(0.0, 7.0)).collect();
         window.extend(brow.iter().rev().map(|b| Point::new(p[*b].x, p[eye].y + 4.0)));
         mask = mask.without(&Mask::polygon(&window));
@@ -212,9 +223,8 @@ fn outlines(field: &[f32]) -> (Vec<Vec<Point>>, Vec<usize>) {
             vertices = first;
             front.push(few);
         } else if size > LEAST_PIECE / 2.0 || size < -LEAST_HOLE / 2.0 {
-            let far = (0..outline.len()).max_by(|a, b| {
-                outline[*a].distance(outline[0]).total_cmp(&outline[*b].distance(outline[0]))
-            });
+            let far = (0..outline.len())
+                .max_by(|a, b| outline[*a].distance(outline[0]).total_cmp(&outline[*b].distance(outline[0])));
             let (few, _) = simplified(&outline, 0, far.unwrap_or(0), TOLERANCE, 4);
             front.push(few);
         }
@@ -243,7 +253,9 @@ fn back(mask: &Mask, _shape: &Shape) -> Vec<Vec<Point>> {
     let mut filled = mask.clone();
     for row in 0..ROWS {
         let cells = &mut filled.0[row * COLUMNS..(row + 1) * COLUMNS];
-        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else { continue };
+        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else {
+            continue;
+        };
         let wide = (last - first) as f64 * CELL > 60.0;
         if wide && first < column_at(-30.0) && last > column_at(30.0) {
             cells[first..=last].fill(true);

@@ -46,10 +46,8 @@ pub(super) fn handles(frame: &Frame, shape: &Shape) -> [f64; 2] {
     while step > 0.006 {
         let at = best.1;
         for (da, db) in [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)] {
-            let tried = [
-                (at[0] + f64::from(da) * step).clamp(0.25, 0.95),
-                (at[1] + f64::from(db) * step).clamp(0.15, 0.95),
-            ];
+            let tried =
+                [(at[0] + f64::from(da) * step).clamp(0.25, 0.95), (at[1] + f64::from(db) * step).clamp(0.15, 0.95)];
             let c = cost(tried);
             if c < best.0 {
                 best = (c, tried);

@@ -1,8 +1,8 @@
 //! From a field to closed outlines (marching squares), and from those to few vertices (Ramer 1972, Douglas and
 //! Peucker 1973).
 
-use super::mask::{CELL, COLUMNS, ROWS};
 use super::frame::VIEW;
+use super::mask::{CELL, COLUMNS, ROWS};
 use crate::geometry::Point;
 
 /// Where a field over the cells passes 0.5, as closed loops in units, largest area first. A loop runs clockwise as

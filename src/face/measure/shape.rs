@@ -46,7 +46,13 @@ impl Shape {
     /// The height of the hairline over `x`: through 11.2, 11.1 and 11.3, and down beside them to the ears.
     pub fn hairline(&self, x: f64) -> f64 {
         let p = &self.points;
-        let line = [p[P::P10_2] + Vec2::new(6.0, 0.0), p[P::P11_2], p[P::P11_1], p[P::P11_3], p[P::P10_1] - Vec2::new(6.0, 0.0)];
+        let line = [
+            p[P::P10_2] + Vec2::new(6.0, 0.0),
+            p[P::P11_2],
+            p[P::P11_1],
+            p[P::P11_3],
+            p[P::P10_1] - Vec2::new(6.0, 0.0),
+        ];
         if x <= line[0].x {
             return line[0].y;
         }

@@ -48,7 +48,11 @@ impl Material {
                 let mut chance = Chance(i as u64 * 77 + 5);
                 let person = shot.person;
                 if variant < 2 {
-                    return Picture { pyramid: varied(&shot.photo, variant, &mut chance), person, truth: shot.truth.clone() };
+                    return Picture {
+                        pyramid: varied(&shot.photo, variant, &mut chance),
+                        person,
+                        truth: shot.truth.clone(),
+                    };
                 }
                 let yaw = chance.between(0.06, 0.36) * if chance.share() < 0.5 { -1.0 } else { 1.0 };
                 let (photo, truth) = others::turned(&shot.photo, &frame(&shot.truth), yaw, &shot.truth);
@@ -89,7 +93,11 @@ impl Material {
                 planes.push(Plane::luma(&others::turned(&shot.photo, &frame(&shot.truth), yaw, &[]).0));
             }
             let person = shot.person;
-            planes.into_iter().map(move |plane| Picture { pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN), person, truth: Vec::new() })
+            planes.into_iter().map(move |plane| Picture {
+                pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN),
+                person,
+                truth: Vec::new(),
+            })
         });
         without.extend(torn.collect::<Vec<_>>());
         Self { scheme, neutral, smiling, faces, smiles, without }
@@ -113,13 +121,23 @@ pub fn plans(scheme: &Scheme) -> [Vec<Plan>; 2] {
 pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sync) -> Model {
     let scheme = &material.scheme;
     let begun = std::time::Instant::now();
-    let shapes = points::shapes(&material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(), scheme, 32);
+    let shapes = points::shapes(
+        &material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(),
+        scheme,
+        32,
+    );
     let mut chance = Chance(99);
     let mut samples = Vec::new();
     for (i, picture) in material.faces.iter().enumerate().filter(|(_, p)| of(p.person)) {
         for _ in 0..starts {
             let frame = points::shaken(&shapes, &picture.truth, &mut chance);
-            samples.push(Sample { picture: i, person: picture.person, frame, shape: shapes.mean.clone(), truth: picture.truth.clone() });
+            samples.push(Sample {
+                picture: i,
+                person: picture.person,
+                frame,
+                shape: shapes.mean.clone(),
+                truth: picture.truth.clone(),
+            });
         }
     }
     let [coarse, fine] = points::cascade(&shapes, &material.faces, samples, &plans(scheme), 5);
@@ -155,7 +173,12 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
 
     let begun = std::time::Instant::now();
     let silent = |like: &Stage| {
-        let blocks = vec![Block { sites: vec![], moves: Moves::Modes, weights: Matrix { rows: 1, columns: 0, values: vec![] }, bias: vec![0.0] }];
+        let blocks = vec![Block {
+            sites: vec![],
+            moves: Moves::Modes,
+            weights: Matrix { rows: 1, columns: 0, values: vec![] },
+            bias: vec![0.0],
+        }];
         Stage { blocks, ..like.clone() }
     };
     let judges = [silent(&coarse[1]), silent(&fine[0])];
@@ -180,14 +203,22 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             if let Some(face) = &scene.face {
                 // Fits from the true place, tilted, and lost ones, which start far off.
                 let mut chance = Chance(i as u64 + 70_000);
-                let by = Frame::new(Point::new(chance.normal() * 0.07, chance.normal() * 0.07), (chance.normal() * 0.08).exp(), chance.normal() * 0.09);
+                let by = Frame::new(
+                    Point::new(chance.normal() * 0.07, chance.normal() * 0.07),
+                    (chance.normal() * 0.08).exp(),
+                    chance.normal() * 0.09,
+                );
                 let good = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
                 if near(&good, face) {
                     found.push((i, true, both(good)));
                 }
                 let angle = chance.between(0.0, 6.28);
                 let far = chance.between(0.5, 1.0);
-                let by = Frame::new(Point::new(angle.cos() * far, angle.sin() * far), (chance.normal() * 0.3).exp(), chance.normal() * 0.2);
+                let by = Frame::new(
+                    Point::new(angle.cos() * far, angle.sin() * far),
+                    (chance.normal() * 0.3).exp(),
+                    chance.normal() * 0.2,
+                );
                 let bad = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
                 if !near(&bad, face) && bad.fit.frame.origin.distance(face.origin) > 0.25 * face.scale() {
                     found.push((i, false, both(bad)));
@@ -215,7 +246,11 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             })
             .collect();
         const KEPT: usize = 16;
-        let some: Vec<&[f32]> = long.iter().flat_map(|l| l.chunks_exact(DESCRIPTOR)).step_by(long.len() * sites.len() / 20_000 + 1).collect();
+        let some: Vec<&[f32]> = long
+            .iter()
+            .flat_map(|l| l.chunks_exact(DESCRIPTOR))
+            .step_by(long.len() * sites.len() / 20_000 + 1)
+            .collect();
         let (usual, basis, _) = ridge::directions(&DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]), KEPT);
         let short = |l: &Vec<f32>| {
             let mut out = vec![0.0; sites.len() * KEPT];
@@ -225,10 +260,16 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             }
             out
         };
-        let rows = |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
+        let rows =
+            |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
         let (weights, bias) = windows::logistic(&rows(true), &rows(false), 1e-3);
         let columns = weights.len();
-        let block = Block { sites: sites.clone(), moves: Moves::Modes, weights: Matrix { rows: 1, columns, values: weights }, bias: vec![bias] };
+        let block = Block {
+            sites: sites.clone(),
+            moves: Moves::Modes,
+            weights: Matrix { rows: 1, columns, values: weights },
+            bias: vec![bias],
+        };
         let judge = &mut model.judges[which];
         judge.basis = basis;
         judge.usual = usual;
