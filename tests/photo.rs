@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use lianpu::drawing::Drawing;
 use lianpu::face::{FeaturePoint, thesis};
 use lianpu::geometry::{Point, Vec2};
-use lianpu::photo::{Photo, Stages};
+use lianpu::photo::{Eyeballs, Photo, Plane, Quality, Stages};
 use lianpu::plot;
 use lianpu::render::{Painter, to_svg, uncovered_in};
 use rayon::prelude::*;
@@ -168,4 +168,44 @@ fn every_stage_of_a_real_photo_is_drawn() {
     let named = plot::points_over(&photo, &list, &[], true);
     let texts = |d: &Drawing| to_svg(d, 900, 1000).matches("<text").count();
     assert_eq!(texts(&named), texts(&plain) + 47);
+}
+
+/// A photo's quality in the square round its eyes.
+fn quality(photo: &Photo, eyes: [Point; 2]) -> Quality {
+    let square = Eyeballs::at(eyes[0], eyes[1]).square(photo.width(), photo.height());
+    Quality::of(photo, &square).unwrap()
+}
+
+#[test]
+fn light_from_the_side_is_told_from_frontal_light() {
+    let sides = |end: &str| -> Vec<f64> {
+        let one = |path: &PathBuf| {
+            let photo = Photo::read(path).unwrap();
+            let eyes = asf_eyes(path, (photo.width() as f64, photo.height() as f64));
+            quality(&photo, eyes).side.abs()
+        };
+        files("faces/imm240", end).par_iter().map(one).collect()
+    };
+    let frontal = sides("-1m.jpg").into_iter().fold(0.0, f64::max);
+    let side = sides("-5m.jpg").into_iter().fold(f64::INFINITY, f64::min);
+    println!("frontal at most {frontal:.3}, from the side at least {side:.3}");
+    assert!(frontal < 0.2 && side > 0.2);
+}
+
+#[test]
+fn a_portrait_out_of_focus_measures_more_blur_than_any_in_focus() {
+    let photos = files("faces/london", "_neutral.jpg");
+    let one = |path: &PathBuf| {
+        let (photo, truth) = (Photo::read(path).unwrap(), pts(path));
+        let channel = |k: usize| {
+            let values = photo.pixels().iter().map(|p| f32::from(p[k])).collect();
+            Plane { width: photo.width(), height: photo.height(), values }.blurred(1.0).values
+        };
+        let [r, g, b] = [0, 1, 2].map(channel);
+        let pixels = (0..r.len()).map(|i| [r[i] as u8, g[i] as u8, b[i] as u8]).collect();
+        let soft = Photo::new(photo.width(), photo.height(), pixels);
+        [&photo, &soft].map(|p| quality(p, [truth[0], truth[1]]).blur)
+    };
+    let blurs: Vec<[f64; 2]> = photos.par_iter().step_by(6).map(one).collect();
+    assert!(blurs.iter().all(|[sharp, soft]| *sharp < 0.48 && *soft > 0.52), "{blurs:?}");
 }

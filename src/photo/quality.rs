@@ -8,9 +8,11 @@ use super::{Bounds, Photo, Plane};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quality {
     /// How much of the variation between neighbours a further blur would leave (Crete and others 2007): 0 sharp to 1
-    /// blurred. Portraits in focus lie near 0.3, out of focus above 0.5, at some 200 pixels a face.
+    /// blurred. It depends on the size: where a face is 200 pixels wide, real portraits in focus measure 0.23 to 0.43,
+    /// blurred by a Gaussian of one pixel 0.56 to 0.63, of two 0.73 to 0.79.
     pub blur: f64,
-    /// Standard deviation of the noise of luma, in steps of 255 (Immerkær 1996, where there are no edges).
+    /// Standard deviation of the noise of luma, in steps of 255 (Immerkær 1996, where there are no edges). 1 from a
+    /// studio, 6 from an early digital camera.
     pub noise: f64,
     /// Mean luma, 0 to 255.
     pub mean: f64,
@@ -21,6 +23,7 @@ pub struct Quality {
     /// Share of pixels with a channel at its end (254 and above), 0 to 1.
     pub clipped: f64,
     /// How much lighter the right half is than the left, −1 to 1: (right − left) / (right + left) of their means.
+    /// Frontal light stays within 0.14, light from the side is beyond 0.27.
     pub side: f64,
 }
 

@@ -36,7 +36,7 @@ mod tests {
     #[test]
     fn holes_of_the_face_are_face_and_the_wall_is_not_hair() {
         // Hair (dark) over a face with two eyes (dark) before a light wall.
-        let light = drawn(&["########", "##....##", "##.##.##", "##...###", "##.##.##", "########"]).not().not();
+        let light = drawn(&["########", "##....##", "##.##.##", "##...###", "##.##.##", "########"]);
         let ground = drawn(&["########", "########", "##....##", "##.##.##", "##....##", "########"]);
         let refined = Refined::of(&light, &ground);
         assert_eq!(

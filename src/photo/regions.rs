@@ -62,10 +62,12 @@ impl Regions {
                         Neighbours::Four if row != y => (x, x),
                         _ => (left, right),
                     };
-                    for next in row * width + from..=row * width + to {
-                        if mask.bits[next] && labels[next] == 0 {
-                            labels[next] = label;
-                            open.push(next);
+                    let start = row * width + from;
+                    let places = labels[start..=row * width + to].iter_mut().zip(&mask.bits[start..]);
+                    for (i, (there, set)) in places.enumerate() {
+                        if *set && *there == 0 {
+                            *there = label;
+                            open.push(start + i);
                         }
                     }
                 }

@@ -7,6 +7,7 @@
 mod axes;
 mod curves;
 mod faces;
+mod pixels;
 mod points;
 mod score;
 mod sheet;

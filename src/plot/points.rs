@@ -1,7 +1,7 @@
 //! Feature points over the photo that they were found in.
 
 use super::axes::{TEXT, block, chart};
-use super::stages::image;
+use super::pixels::image;
 use super::{GREY, INK};
 use crate::drawing::{Anchor, Colour, Drawing, Item};
 use crate::face::{Face, FeaturePoint as P, How, Part, Placed};
@@ -153,7 +153,7 @@ fn labels(points: &[(P, Placed)], place: Affine) -> Vec<Item> {
         let width = 0.56 * size * name.len() as f64;
         let start = if out.hypot() < 1e-6 { -std::f64::consts::FRAC_PI_2 } else { out.atan2() };
         // Tries places round the point, the outward one first.
-        let turns = [0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, 2.6, -2.6, 3.14];
+        let turns = [0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, 2.6, -2.6, std::f64::consts::PI];
         let frame = |turn: f64, far: f64| {
             let way = Vec2::from_angle(start + turn);
             let middle = centre + Vec2::new(way.x * (far + width / 2.0), way.y * (far + size / 2.0));

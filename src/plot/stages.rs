@@ -1,15 +1,14 @@
 //! The thesis's figures 3.6 to 3.18 for one's own photo.
 
 use super::axes::{TEXT, chart, rule};
+use super::pixels::{LIGHT, cut_out, faded, hue_image, image, mask_image, pixels_image, plane_image};
 use super::{GREY, INK};
-use crate::drawing::{Anchor, Colour, Drawing, Item, Raster};
+use crate::drawing::{Anchor, Colour, Drawing, Item};
 use crate::geometry::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2, stroke_outline};
-use crate::photo::{Bounds, Feature, Hsi, Located, Mask, Photo, Plane, Stages, hue_distance};
+use crate::photo::{Bounds, Feature, Located, Photo, Stages};
 
 /// Width of a figure.
 const WIDTH: f64 = 600.0;
-/// Paper where a mask is not set.
-const LIGHT: Colour = Colour::rgb(0xF4, 0xF3, 0xEF);
 /// What is marked as chosen: bluish green of Okabe and Ito.
 const CHOSEN: Colour = Colour::rgb(0x00, 0x9E, 0x73);
 /// What is only considered: their orange.
@@ -258,67 +257,7 @@ fn figure(shown: Rect, items: Vec<Item>) -> Drawing {
     )
 }
 
-fn raster(width: usize, height: usize, pixels: impl Iterator<Item = [u8; 4]>) -> Item {
-    Item::Picture(Raster::new("", width, height, pixels.flatten().collect::<Vec<u8>>()))
-}
-
-fn rgba(c: Colour) -> [u8; 4] {
-    [c.r, c.g, c.b, c.a]
-}
-
-/// A photo in a drawing, a unit a pixel.
-pub(super) fn image(photo: &Photo) -> Item {
-    raster(photo.width(), photo.height(), photo.pixels().iter().map(|p| [p[0], p[1], p[2], 255]))
-}
-
-/// A photo as a pale ground for what is drawn over it.
-fn faded(photo: &Photo) -> Item {
-    let pale = |v: u8| (110 + u16::from(v) * 145 / 255) as u8;
-    raster(photo.width(), photo.height(), photo.pixels().iter().map(|p| [pale(p[0]), pale(p[1]), pale(p[2]), 255]))
-}
-
-fn mask_image(mask: &Mask, set: Colour, unset: Colour) -> Item {
-    raster(mask.width, mask.height, mask.bits.iter().map(|b| rgba(if *b { set } else { unset })))
-}
-
-/// A photo where a mask is set, paper elsewhere.
-fn cut_out(photo: &Photo, mask: &Mask) -> Item {
-    let pixels = photo.pixels().iter().zip(&mask.bits);
-    raster(mask.width, mask.height, pixels.map(|(p, set)| if *set { [p[0], p[1], p[2], 255] } else { rgba(LIGHT) }))
-}
-
-fn plane_image(plane: &Plane, grey: impl Fn(f32) -> f32) -> Item {
-    let level = |v: f32| grey(v).clamp(0.0, 255.0) as u8;
-    raster(plane.width, plane.height, plane.values.iter().map(|v| [level(*v), level(*v), level(*v), 255]))
-}
-
-/// Hue as its nearness to the face's: orange on the hue itself, blue opposite, pale between.
-fn hue_image(hsi: &Hsi, mean: f32) -> Item {
-    const WARM: [f32; 3] = [213.0, 94.0, 0.0];
-    const PALE: [f32; 3] = [244.0, 243.0, 239.0];
-    const COLD: [f32; 3] = [0.0, 114.0, 178.0];
-    let pixel = |v: &f32| {
-        let far = hue_distance(*v, mean) / 128.0;
-        let (a, b, t) = if far < 0.25 { (WARM, PALE, far / 0.25) } else { (PALE, COLD, (far - 0.25) / 0.75) };
-        let channel = |k: usize| (a[k] + (b[k] - a[k]) * t) as u8;
-        [channel(0), channel(1), channel(2), 255]
-    };
-    raster(hsi.hue.width, hsi.hue.height, hsi.hue.values.iter().map(pixel))
-}
-
 fn feature_pixels(feature: &Feature, photo: &Photo, colour: Colour) -> Item {
     // The limits of what was grown may lie outside the search range, never outside the photo.
     pixels_image(&feature.pixels, &Bounds::whole(photo.width(), photo.height()), colour)
-}
-
-/// Single pixels within a box, in one colour.
-fn pixels_image(pixels: &[(usize, usize)], within: &Bounds, colour: Colour) -> Item {
-    let (width, height) = (within.width(), within.height());
-    let mut bytes = vec![0_u8; width * height * 4];
-    for (x, y) in pixels.iter().filter(|(x, y)| within.holds(*x, *y)) {
-        let at = ((y - within.y0) * width + x - within.x0) * 4;
-        bytes[at..at + 4].copy_from_slice(&rgba(colour));
-    }
-    let place = Affine::translate((within.x0 as f64, within.y0 as f64));
-    Item::Picture(Raster::new("", width, height, bytes).placed(place))
 }
