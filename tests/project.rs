@@ -253,7 +253,7 @@ fn a_manifest_cannot_reach_out_of_its_folder() {
     for figure in ["figures/../../secret.toml", "figures/link.toml"] {
         std::fs::create_dir_all(root.join("figures")).unwrap();
         let _ = std::os::unix::fs::symlink(folder.path().join("secret.toml"), root.join("figures/link.toml"));
-        std::fs::write(&manifest, text.replace("figure = \"line\"", &format!("figure = \"{figure}\""))).unwrap();
+        std::fs::write(&manifest, text.replace("figure = \"cartoon\"", &format!("figure = \"{figure}\""))).unwrap();
         let lesson = Lesson::read(&root).unwrap();
         let fault = lesson.figure_of(&lesson.manifest.clips[0]).unwrap_err();
         assert!(fault.to_string().contains("out of the project"), "{fault}");

@@ -148,7 +148,7 @@ fn paint_item(canvas: &mut Pixmap, item: &Item, place: Affine, font: Option<&Fon
                 None => group.items.iter().for_each(|item| paint_item(canvas, item, place, font)),
             }
         }
-        Item::Picture(raster) => super::raster::paint(canvas, raster, place, mask),
+        Item::Picture(raster) => super::raster::paint(canvas, raster, place),
     }
 }
 

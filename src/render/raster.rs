@@ -1,13 +1,13 @@
 //! Pictures of pixels inside drawings: painted with as many pixels as can be seen, or carried whole as a PNG.
 
-use tiny_skia::{FillRule, FilterQuality, IntSize, Mask, Paint, Pattern, Pixmap, PremultipliedColorU8, SpreadMode};
+use tiny_skia::{FillRule, FilterQuality, IntSize, Paint, Pattern, Pixmap, PremultipliedColorU8, SpreadMode};
 
 use crate::drawing::Raster;
 use crate::geometry::{Affine, Shape};
 
 /// Paints the raster. Where it is drawn at half its size or smaller, whole blocks of its pixels are averaged first,
 /// so that nothing flickers or is skipped; between pixels it is bilinear.
-pub(super) fn paint(canvas: &mut Pixmap, raster: &Raster, place: Affine, mask: Option<&Mask>) {
+pub(super) fn paint(canvas: &mut Pixmap, raster: &Raster, place: Affine) {
     let place = place * raster.place();
     let [a, b, c, d, _, _] = place.as_coeffs();
     let blocks = |scale: f64, side: usize| ((1.0 / scale.max(1e-6)) as usize).clamp(1, side);
@@ -22,7 +22,7 @@ pub(super) fn paint(canvas: &mut Pixmap, raster: &Raster, place: Affine, mask: O
         shader: Pattern::new(pixels.as_ref(), SpreadMode::Pad, FilterQuality::Bilinear, 1.0, transform),
         ..Paint::default()
     };
-    canvas.fill_path(&path, &paint, FillRule::Winding, tiny_skia::Transform::identity(), mask);
+    canvas.fill_path(&path, &paint, FillRule::Winding, tiny_skia::Transform::identity(), None);
 }
 
 /// The raster with `across` × `down` of its pixels averaged to one, premultiplied.

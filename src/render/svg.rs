@@ -1,6 +1,7 @@
 //! A drawing as one readable SVG file: a group a layer, every shape under its own name, title and description for
 //! screen readers, and no more digits than can be seen.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::TOLERANCE;
@@ -38,11 +39,11 @@ pub fn to_svg(drawing: &Drawing, width: u32, height: u32) -> String {
             fill(colour)
         );
     }
-    let mut clips = 0;
+    let mut names = Names::default();
     for layer in &drawing.layers {
         let _ = writeln!(out, "<g id=\"{}\">", Escaped(&layer.name));
         for item in &layer.items {
-            write_item(&mut out, item, &mut clips);
+            write_item(&mut out, item, &mut names);
         }
         out.push_str("</g>\n");
     }
@@ -50,10 +51,38 @@ pub fn to_svg(drawing: &Drawing, width: u32, height: u32) -> String {
     out
 }
 
-fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
+/// The names given so far. In one file a name stands once: the second nostril is `nostril-2`.
+#[derive(Default)]
+struct Names {
+    used: BTreeMap<String, usize>,
+    clips: usize,
+}
+
+impl Names {
+    /// The attribute of a name; nothing for what has none.
+    fn id(&mut self, name: &str) -> String {
+        if name.is_empty() {
+            return String::new();
+        }
+        let times = self.used.entry(name.to_owned()).or_default();
+        *times += 1;
+        match *times {
+            1 => format!(" id=\"{}\"", Escaped(name)),
+            n => format!(" id=\"{}-{n}\"", Escaped(name)),
+        }
+    }
+
+    /// A number for something that is named by number.
+    fn next(&mut self) -> usize {
+        self.clips += 1;
+        self.clips
+    }
+}
+
+fn write_item(out: &mut String, item: &Item, names: &mut Names) {
     match item {
-        Item::Area(area) => write_path(out, &area.name, &area.path, &fill(area.colour)),
-        Item::Ink(ink) => write_path(out, &ink.name, &outline(&ink.strokes, TOLERANCE), &fill(ink.colour)),
+        Item::Area(area) => write_path(out, &names.id(&area.name), &area.path, &fill(area.colour)),
+        Item::Ink(ink) => write_path(out, &names.id(&ink.name), &outline(&ink.strokes, TOLERANCE), &fill(ink.colour)),
         Item::Text(text) => {
             let anchor = match text.anchor {
                 Anchor::Start => "",
@@ -71,7 +100,7 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
             );
         }
         Item::Glow(glow) => {
-            *clips += 1;
+            let clips = names.next();
             let _ = writeln!(
                 out,
                 "<radialGradient id=\"picture-glow-{clips}\"><stop offset=\"0\" stop-color=\"{0}\" stop-opacity=\"{1}\"/>\
@@ -82,29 +111,29 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
             let _ = writeln!(
                 out,
                 "<ellipse{} cx=\"{}\" cy=\"{}\" rx=\"{}\" ry=\"{}\" fill=\"url(#picture-glow-{clips})\"/>",
-                id(&glow.name),
+                names.id(&glow.name),
                 Short(glow.at.x),
                 Short(glow.at.y),
                 Short(glow.radii.x),
                 Short(glow.radii.y)
             );
         }
-        Item::Shared(shared) => shared.items().iter().for_each(|item| write_item(out, item, clips)),
+        Item::Shared(shared) => shared.items().iter().for_each(|item| write_item(out, item, names)),
         Item::Group(group) => {
             let mut clip = String::new();
             if let Some(path) = &group.clip {
-                *clips += 1;
+                let clips = names.next();
                 let _ = write!(clip, " clip-path=\"url(#picture-clip-{clips})\"");
                 let _ = writeln!(out, "<clipPath id=\"picture-clip-{clips}\"><path d=\"{}\"/></clipPath>", data(path));
             }
-            let _ = writeln!(out, "<g{}{clip}{}>", id(&group.name), transform(group.transform));
+            let _ = writeln!(out, "<g{}{clip}{}>", names.id(&group.name), transform(group.transform));
             for item in &group.items {
-                write_item(out, item, clips);
+                write_item(out, item, names);
             }
             out.push_str("</g>\n");
         }
         Item::Picture(raster) => {
-            let id = if raster.name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(&raster.name)) };
+            let id = names.id(&raster.name);
             let _ = writeln!(
                 out,
                 "<image{id} width=\"{}\" height=\"{}\"{} href=\"{}\"/>",
@@ -117,16 +146,11 @@ fn write_item(out: &mut String, item: &Item, clips: &mut usize) {
     }
 }
 
-fn write_path(out: &mut String, name: &str, path: &BezPath, fill: &str) {
+fn write_path(out: &mut String, id: &str, path: &BezPath, fill: &str) {
     if path.elements().is_empty() {
         return;
     }
-    let _ = writeln!(out, "<path{} d=\"{}\"{fill}/>", id(name), data(path));
-}
-
-/// The attribute with a thing's name; nothing where it has none.
-fn id(name: &str) -> String {
-    if name.is_empty() { String::new() } else { format!(" id=\"{}\"", Escaped(name)) }
+    let _ = writeln!(out, "<path{id} d=\"{}\"{fill}/>", data(path));
 }
 
 fn fill(colour: crate::drawing::Colour) -> String {

@@ -51,7 +51,7 @@ const SHIRTS: [f64; 8] = [200.0, 150.0, 255.0, 25.0, 85.0, 300.0, 225.0, 175.0];
 /// let drawing = cartoon.draw(&Pose::default());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Cartoon {
     face: Arc<Face>,
     style: Arc<Style>,
@@ -124,6 +124,13 @@ pub struct Extra {
     pub over: bool,
     /// In the face frame: pupil distance 100, origin midway between the pupils, y down. Back to front.
     pub items: Vec<Item>,
+}
+
+impl std::fmt::Debug for Cartoon {
+    /// Its title and key: the parts fill pages.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Cartoon").field("title", &self.title).field("fingerprint", &self.fingerprint).finish()
+    }
 }
 
 impl Cartoon {
