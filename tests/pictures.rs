@@ -3,74 +3,13 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-use std::path::PathBuf;
+mod golden_picture;
 
+use golden_picture::{hold, same_as_resvg};
 use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer};
 use lianpu::figure::LineFigure;
 use lianpu::geometry::{Point, Rect};
 use lianpu::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
-use lianpu::render::{Painter, Picture, encode_png, to_svg};
-
-/// A channel may differ by so much: rounding of another mathematics library.
-const CHANNEL: u8 = 24;
-
-/// So many pixels of a sheet may differ by more.
-const PIXELS: usize = 30;
-
-fn golden(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.png"))
-}
-
-fn decode(bytes: &[u8]) -> Picture {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
-    let mut rgba = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut rgba).unwrap();
-    Picture { width: info.width, height: info.height, rgba }
-}
-
-fn differing(a: &Picture, b: &Picture) -> usize {
-    let pairs = a.rgba.chunks_exact(4).zip(b.rgba.chunks_exact(4));
-    pairs.filter(|(x, y)| x.iter().zip(*y).any(|(p, q)| p.abs_diff(*q) > CHANNEL)).count()
-}
-
-fn three_panels(expected: &Picture, found: &Picture) -> Picture {
-    let (w, h) = (found.width, found.height);
-    let mut rgba = Vec::new();
-    for y in 0..h {
-        for panel in 0..3 {
-            for x in 0..w {
-                let (a, b) = (expected.pixel(x, y).unwrap_or([0; 4]), found.pixel(x, y).unwrap_or([0; 4]));
-                let apart = a.iter().zip(b).any(|(p, q)| p.abs_diff(q) > CHANNEL);
-                rgba.extend(match panel {
-                    0 => a,
-                    1 => b,
-                    _ if apart => [255, 0, 0, 255],
-                    _ => [255, 255, 255, 255],
-                });
-            }
-        }
-    }
-    Picture { width: 3 * w, height: h, rgba }
-}
-
-fn hold(name: &str, drawing: &Drawing) {
-    let (width, height) = (drawing.view.width() as u32, drawing.view.height() as u32);
-    let found = Painter::new(width, height).unwrap().paint(drawing);
-    let path = golden(name);
-    if std::env::var_os("LIANPU_GOLDEN").is_some_and(|v| v == "write") {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, encode_png(&found, "").unwrap()).unwrap();
-        return;
-    }
-    let expected = decode(&std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())));
-    assert_eq!((expected.width, expected.height), (width, height), "{name}");
-    let apart = differing(&expected, &found);
-    if apart > PIXELS {
-        let panels = std::env::temp_dir().join(format!("lianpu-{name}-difference.png"));
-        std::fs::write(&panels, encode_png(&three_panels(&expected, &found), "").unwrap()).unwrap();
-        panic!("{name}: {apart} pixels differ, see {}", panels.display());
-    }
-}
 
 fn sheet(figure: &LineFigure, poses: &[(String, Pose)], columns: usize) -> Drawing {
     const CELL: (f64, f64) = (112.0, 128.0);
@@ -130,14 +69,7 @@ fn our_pixels_are_those_that_resvg_makes_of_our_svg() {
         let figure = LineFigure::built_in(name).unwrap();
         for (label, pose) in emotions_and_mouths() {
             let drawing = figure.draw(&pose);
-            let ours = Painter::new(640, 360).unwrap().paint(&drawing);
-            let tree = usvg::Tree::from_str(&to_svg(&drawing, 640, 360), &usvg::Options::default());
-            let mut canvas = tiny_skia::Pixmap::new(640, 360).unwrap();
-            resvg::render(&tree.unwrap(), tiny_skia::Transform::identity(), &mut canvas.as_mut());
-            let theirs = Picture { width: 640, height: 360, rgba: canvas.data().to_vec() };
-            // SVG carries hundredths of a unit and antialiases clips its own way: edges may differ, areas may not.
-            let strong = ours.rgba.iter().zip(&theirs.rgba).filter(|(a, b)| a.abs_diff(**b) > 96).count();
-            assert!(strong < 60, "{name} {label}: {strong} channels apart");
+            same_as_resvg(&format!("{name} {label}"), &drawing, 60);
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::pose::Pose;
 #[derive(Debug, Clone)]
 pub enum Figure {
     /// Seven drawings, blended.
-    Line(LineFigure),
+    Line(Box<LineFigure>),
     /// A person's face.
     Cartoon(Box<Cartoon>),
 }
@@ -66,7 +66,7 @@ impl Figure {
     #[must_use]
     pub fn close_up(&self, bolder: f64) -> Self {
         match self {
-            Self::Line(figure) => Self::Line(figure.close_up(bolder)),
+            Self::Line(figure) => Self::Line(Box::new(figure.close_up(bolder))),
             Self::Cartoon(figure) => Self::Cartoon(Box::new(figure.close_up(bolder))),
         }
     }
@@ -87,7 +87,7 @@ impl Figure {
 
 impl From<LineFigure> for Figure {
     fn from(figure: LineFigure) -> Self {
-        Self::Line(figure)
+        Self::Line(Box::new(figure))
     }
 }
 

@@ -21,14 +21,17 @@ pub(super) struct Growth {
     /// How opaque.
     chin_cover: f64,
     lip_cover: f64,
+    /// A shaved moustache is a shadow of the skin's own colour.
+    faint: bool,
 }
 
 impl Growth {
     /// From how much darker the four places are; none where there is no beard. `wanted` draws one all the same.
     pub(super) fn of(dark: &Beard, light_skin: bool, wanted: bool) -> Option<Self> {
         let full = dark.chin > 0.10 || wanted;
-        let lip = dark.lip > 0.075 || full;
-        if !lip {
+        // A nose throws a shadow as dark as a faint moustache; who shaves one has a darker jaw too.
+        let shaved = dark.lip > 0.11 && dark.jaw > 0.14;
+        if !shaved && !full {
             return None;
         }
         let jaw = dark.cheek > 0.2 && dark.jaw > 0.22 && (0.1..0.28).contains(&dark.lip);
@@ -38,9 +41,10 @@ impl Growth {
         Some(Self {
             jaw: full && jaw,
             chin: full,
-            lip: dark.lip > 0.075 || (full && jaw) || wanted,
+            lip: dark.lip > 0.075 || jaw || wanted,
             chin_cover: 0.95 * cover,
             lip_cover: cover * if dark.lip > 0.2 || wanted { 0.95 } else { faint },
+            faint: !(full || dark.lip > 0.2),
         })
     }
 
@@ -61,7 +65,11 @@ impl Growth {
             items.push(Item::area("beard", place.goatee(), colour.faded(self.chin_cover)));
         }
         if self.lip {
+            let colour = if self.faint { pen.palette.hair_tint } else { colour };
             items.push(Item::area("moustache", place.moustache(), colour.faded(self.lip_cover)));
+        }
+        if self.faint {
+            items.push(Item::area("beard-jaw", place.along_jaw(outline), pen.palette.hair_tint.faded(0.20)));
         }
         items
     }

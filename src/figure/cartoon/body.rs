@@ -3,7 +3,7 @@
 use super::{Pen, at};
 use crate::drawing::Item;
 use crate::face::{FeaturePoint as P, Points};
-use crate::geometry::{Affine, BezPath, Circle, CubicBez, ParamCurve, Point, Shape, Vec2, brush};
+use crate::geometry::{Affine, BezPath, Circle, CubicBez, ParamCurve, Point, Rect, Shape, Vec2, brush};
 
 /// Measures of neck and shirt, in the face frame.
 #[derive(Debug, Clone)]
@@ -14,7 +14,8 @@ pub(super) struct Body {
     chin: f64,
     /// The height of the shoulders.
     shoulders: f64,
-    /// The lower edge of what is seen.
+    /// Half the width and the lower edge of what is seen.
+    reach: f64,
     bottom: f64,
 }
 
@@ -23,9 +24,10 @@ const BEHIND: f64 = 60.0;
 
 impl Body {
     /// `neck` in half widths of the jaw, as measured; `jaw` that half width.
-    pub(super) fn new(points: &Points, neck: f64, jaw: f64, bottom: f64) -> Self {
+    pub(super) fn new(points: &Points, neck: f64, jaw: f64, view: Rect) -> Self {
         let chin = points[P::P2_1].y;
-        Self { neck: neck.clamp(0.66, 0.84) * jaw, chin, shoulders: chin + 62.0, bottom: bottom + 10.0 }
+        let reach = view.x1.max(-view.x0) + 10.0;
+        Self { neck: neck.clamp(0.66, 0.84) * jaw, chin, shoulders: chin + 62.0, reach, bottom: view.y1 + 10.0 }
     }
 
     /// The left side of the neck from behind the ear to the shoulder; `head` moves its upper end.
@@ -99,17 +101,24 @@ impl Body {
 
     /// The shirt.
     pub(super) fn shirt(&self, pen: &Pen) -> Vec<Item> {
-        let (n, s, bottom) = (self.neck, self.shoulders, self.bottom);
+        let (n, s, bottom) = (self.neck, self.shoulders, self.bottom.max(self.shoulders + 60.0));
+        // However narrow the neck, the shoulders leave the picture at its sides.
+        let wide = (3.2 * n).max(self.reach);
         let low = s + 36.0;
+        let arm = |sign: f64| {
+            let p = |x: f64, y: f64| at(sign * x, s + y);
+            CubicBez::new(p(1.30 * n, -4.0), p(1.9 * n, 12.0), p(0.8 * wide, 22.0), p(wide, 60.0))
+        };
         let mut cloth = BezPath::new();
         cloth.move_to(at(-1.30 * n, s - 4.0));
         cloth.curve_to(at(-n, s + 26.0), at(-0.5 * n, low), at(0.0, low));
         cloth.curve_to(at(0.5 * n, low), at(n, s + 26.0), at(1.30 * n, s - 4.0));
-        cloth.curve_to(at(1.9 * n, s + 12.0), at(2.6 * n, s + 22.0), at(3.2 * n, s + 60.0));
-        cloth.line_to(at(3.4 * n, bottom.max(s + 60.0)));
-        cloth.line_to(at(-3.4 * n, bottom.max(s + 60.0)));
-        cloth.line_to(at(-3.2 * n, s + 60.0));
-        cloth.curve_to(at(-2.6 * n, s + 22.0), at(-1.9 * n, s + 12.0), at(-1.30 * n, s - 4.0));
+        let (left, right) = (arm(-1.0), arm(1.0));
+        cloth.curve_to(right.p1, right.p2, right.p3);
+        cloth.line_to(at(wide, bottom));
+        cloth.line_to(at(-wide, bottom));
+        cloth.line_to(left.p3);
+        cloth.curve_to(left.p2, left.p1, left.p0);
         cloth.close_path();
         let collar = [(-1.30, -4.0), (-1.02, 17.0), (-0.5, 31.0), (0.0, 36.0), (0.5, 31.0), (1.02, 17.0), (1.30, -4.0)]
             .map(|(x, y)| at(x * n, s + y));
@@ -117,7 +126,7 @@ impl Body {
         let mut items = vec![Item::area("shirt", cloth, pen.palette.shirt)];
         if pen.ink_only {
             for sign in [-1.0, 1.0] {
-                let slope = [at(sign * 1.3 * n, s - 4.0), at(sign * 2.0 * n, s + 14.0), at(sign * 3.1 * n, s + 50.0)];
+                let slope = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].map(|t| arm(sign).eval(t));
                 items.push(pen.line("shoulder", &slope, 1.0, &[1.0, 0.8, 0.0]));
             }
         } else {

@@ -18,13 +18,15 @@ pub(super) fn ears(pen: &Pen, points: &Points, head: &HeadShape) -> Vec<Item> {
         let (top, outer, lobe) = (points[top], points[outer], points[lobe]);
         let high = lobe.y - top.y;
         let base = head.ear_top(side).x;
+        // Where it is widest, within what leaves it an ear.
+        let widest = ((outer.y - top.y) / high.max(1.0)).clamp(0.2, 0.5);
         let out = (sign * (outer.x - base)).max(LEAST);
         let p = |reach: f64, down: f64| at(base + sign * reach * out, top.y + down * high);
         let rim = [
             at(base - sign * 6.0, top.y + 8.0),
             p(0.40, 0.0) - Vec2::new(0.0, 1.0),
-            at(base + sign * (out - 1.2), top.y + 0.16 * high),
-            at(base + sign * (out - 0.6), top.y + 0.40 * high),
+            at(base + sign * (out - 1.2), top.y + (widest - 0.12) * high),
+            at(base + sign * (out - 0.6), top.y + (widest + 0.12) * high),
             p(0.66, 0.70),
             at(lobe.x + sign, lobe.y - 4.0),
             at(lobe.x - sign * 4.0, lobe.y + 1.0),

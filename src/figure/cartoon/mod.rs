@@ -213,7 +213,7 @@ impl Cartoon {
         view.y1 = view.y1.max(points[P::P2_1].y + 160.0);
         around = around.intersect(view);
         let face_view = Rect::new(around.x0 - 6.0, around.y0 - 6.0, around.x1 + 6.0, points[P::P2_1].y + 45.0);
-        let body = body::Body::new(points, face.measures.neck, jaw, view.y1);
+        let body = body::Body::new(points, face.measures.neck, jaw, view);
 
         let outline = head.outline(points);
         let growth = beard::Growth::of(
