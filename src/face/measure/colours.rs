@@ -41,15 +41,23 @@ pub(super) fn colours(frame: &Frame, shape: &Shape, cheeks: &Cheeks, hair: Optio
     }
 }
 
-/// The lower lip without its edges: points found by machine are a fifth of its height off.
+/// The lower lip without its edges and ends: points found by machine are a fifth of its height off.
 fn lips(frame: &Frame, shape: &Shape) -> Option<Lab> {
     let p = &shape.points;
-    let (inner, outer) = (p[P::P2_3], p[P::P8_2]);
     let (left, right) = (p[P::P8_4], p[P::P8_3]);
-    let across = (right - left) * 0.24;
-    let middle = inner.lerp(outer, 0.48);
-    let half = (outer - inner) * 0.32;
-    median(&frame.within(&[middle - across, middle - half, middle + across, middle + half]))
+    // Its two edges over the line between the corners: the outer one is full, a flat curve to the very ends.
+    let edge = |deepest: Point, full: f64, t: f64| {
+        let line = left.lerp(right, 0.5 + t);
+        line + (deepest - left.midpoint(right)) * (1.0 - (2.0 * t).abs().powf(full))
+    };
+    let steps = [-0.42, -0.28, -0.1, 0.1, 0.28, 0.42];
+    let at = |t: f64, share: f64| edge(p[P::P2_3], 2.0, t).lerp(edge(p[P::P8_2], 3.0, t), share);
+    let mut outline: Vec<Point> = steps.iter().map(|t| at(*t, 0.12)).collect();
+    outline.extend(steps.iter().rev().map(|t| at(*t, 0.87)));
+    let mut lip = frame.within(&outline);
+    lip.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    // Without lights on wet lips.
+    median(&lip[..lip.len() * 88 / 100])
 }
 
 /// The ring between pupil and sclera, below the upper lid, without lashes and lights.

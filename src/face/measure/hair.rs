@@ -3,7 +3,7 @@
 use super::colours::median;
 use super::frame::Lab;
 use super::kind::kind;
-use super::mask::{CELL, CELLS, COLUMNS, Mask, ROWS, boxed, centre, column_at, row_at, squared_distances};
+use super::mask::{CELL, CELLS, COLUMNS, Mask, ROWS, boxed, centre, column_at};
 use super::outline::{area, loops, simplified};
 use super::segment::{Regions, ear};
 use super::shape::Shape;
@@ -64,7 +64,13 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
     }
     // Short hair has no locks below the ears.
     let mask = if kind == HairKind::Shaved { Mask::of(|c| mask.0[c] && centre(c).y < shape.lobe) } else { mask };
-    let mut colours: Vec<Lab> = mask.grown(-2.0).cells().map(|c| regions.lab[c]).collect();
+    // Lights on a shaved head are no holes in its hair.
+    let mask = if kind == HairKind::Shaved { mask.without_holes(1e9) } else { mask };
+    // Over the brows hair faces the camera; beside the face it lies in the shade.
+    let core = mask.grown(-2.0);
+    let over = core.and(&Mask::of(|c| centre(c).y < shape.brows - 10.0));
+    let facing = if over.area() > 1500.0 { over } else { core };
+    let mut colours: Vec<Lab> = facing.cells().map(|c| regions.lab[c]).collect();
     if kind == HairKind::Shaved {
         // A shaved head shines: stubble is what does not.
         colours.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -160,15 +166,16 @@ fn with_hidden_ears(mut mask: Mask, regions: &Regions, shape: &Shape) -> ([f64; 
     (seen, mask)
 }
 
-/// The pieces that are large enough, by themselves and against the largest: at most four.
+/// The largest piece on the head, and at most three that are neither small against it nor larger: those are clothes.
 fn pieces(mask: &Mask, shape: &Shape) -> Mask {
     let pieces = mask.pieces();
-    let Some(largest) = pieces.first().map(Mask::area) else { return Mask::none() };
-    let _ = shape;
+    let on_head = |piece: &&Mask| piece.cells().any(|c| centre(c).y < shape.ear_top);
+    let Some(main) = pieces.iter().find(on_head) else { return Mask::none() };
+    let largest = main.area();
     pieces
         .iter()
+        .filter(|p| p.area() > LEAST_PIECE && p.area() > 0.05 * largest && p.area() <= largest)
         .take(4)
-        .filter(|p| p.area() > LEAST_PIECE && p.area() > 0.05 * largest)
         .fold(Mask::none(), |all, p| all.or(p))
 }
 
@@ -193,12 +200,12 @@ fn top(head: &Mask) -> f64 {
 
 /// The mask with the soft edges of the labels, blurred by about one and a half units.
 fn field(regions: &Regions, mask: &Mask) -> Vec<f32> {
-    let near = squared_distances(mask);
+    let near = mask.grown(3.0);
     let soft: Vec<f32> = regions
         .hair()
         .iter()
         .enumerate()
-        .map(|(c, p)| match (mask.0[c], near[c] <= 2.0) {
+        .map(|(c, p)| match (mask.0[c], near.0[c]) {
             (true, _) => p.max(0.55),
             (_, true) => p.min(0.45),
             _ => 0.0,

@@ -113,12 +113,35 @@ impl Mask {
     /// Every cell at most `radius` units from one of its cells; for a negative radius every cell farther than that
     /// from all others.
     pub fn grown(&self, radius: f64) -> Self {
-        let reach = ((radius.abs() / CELL) as f32).powi(2);
-        if radius >= 0.0 {
-            Self(squared_distances(self).into_iter().map(|d| d <= reach).collect())
-        } else {
-            Self(squared_distances(&self.not()).into_iter().map(|d| d > reach).collect())
+        let reach = radius.abs() / CELL;
+        let mut out = Self::none();
+        let Some(window) = self.window(if radius >= 0.0 { reach.ceil() as usize } else { 1 }) else { return out };
+        let grows = radius >= 0.0;
+        let distances = distances_within(&window, |cell| self.0[cell] == grows);
+        let reach = (reach * reach) as f32;
+        for (near, cell) in distances.into_iter().zip(window.cells()) {
+            out.0[cell] = if grows { near <= reach } else { near > reach };
         }
+        out
+    }
+
+    /// The rows and columns that hold its cells, and `margin` more on every side; none where it has no cell.
+    fn window(&self, margin: usize) -> Option<Window> {
+        let first = self.0.iter().position(|v| *v)? / COLUMNS;
+        let last = self.0.iter().rposition(|v| *v)? / COLUMNS;
+        let (mut left, mut right) = (COLUMNS, 0);
+        for row in self.0[first * COLUMNS..(last + 1) * COLUMNS].chunks_exact(COLUMNS) {
+            if let (Some(l), Some(r)) = (row.iter().position(|v| *v), row.iter().rposition(|v| *v)) {
+                left = left.min(l);
+                right = right.max(r);
+            }
+        }
+        Some(Window {
+            top: first.saturating_sub(margin),
+            bottom: (last + 1 + margin).min(ROWS),
+            left: left.saturating_sub(margin),
+            right: (right + 1 + margin).min(COLUMNS),
+        })
     }
 
     /// Without all parts narrower than twice `radius` units.
@@ -132,7 +155,7 @@ impl Mask {
         self.grown(radius).grown(-radius).or(self)
     }
 
-    /// Its connected pieces (sharing an edge), largest first.
+    /// Its connected pieces (sharing an edge) of more than 20 square units, largest first.
     pub fn pieces(&self) -> Vec<Self> {
         let mut seen = vec![false; CELLS];
         let mut found: Vec<Vec<usize>> = Vec::new();
@@ -165,7 +188,7 @@ impl Mask {
         found.sort_by_key(|piece| std::cmp::Reverse(piece.len()));
         found
             .into_iter()
-            .take_while(|piece| piece.len() > 1)
+            .take_while(|piece| piece.len() > 5)
             .take(80)
             .map(|piece| {
                 let mut mask = Self::none();
@@ -187,27 +210,48 @@ impl Mask {
     }
 }
 
-/// The squared distance of every cell to the nearest of the mask, in cells; infinite where it has none
-/// (Felzenszwalb and Huttenlocher 2012, lower envelopes of parabolas).
+/// A rectangle of cells.
+struct Window {
+    top: usize,
+    bottom: usize,
+    left: usize,
+    right: usize,
+}
+
+impl Window {
+    /// Its cells, row by row.
+    fn cells(&self) -> impl Iterator<Item = usize> + '_ {
+        (self.top..self.bottom).flat_map(|row| (self.left..self.right).map(move |column| row * COLUMNS + column))
+    }
+}
+
+/// The squared distance of every cell to the nearest of the mask, in cells; infinite where it has none.
 pub(super) fn squared_distances(mask: &Mask) -> Vec<f32> {
+    distances_within(&Window { top: 0, bottom: ROWS, left: 0, right: COLUMNS }, |cell| mask.0[cell])
+}
+
+/// The squared distances of the window's cells to the nearest of them for which `test` holds (Felzenszwalb and
+/// Huttenlocher 2012, lower envelopes of parabolas).
+fn distances_within(window: &Window, test: impl Fn(usize) -> bool) -> Vec<f32> {
     // Larger than any squared distance on the grid, small enough that adding to it loses nothing.
     const FAR: f32 = 1e9;
-    let mut field: Vec<f32> = mask.0.iter().map(|v| if *v { 0.0 } else { FAR }).collect();
-    let longest = COLUMNS.max(ROWS);
+    let (wide, tall) = (window.right - window.left, window.bottom - window.top);
+    let mut field: Vec<f32> = window.cells().map(|cell| if test(cell) { 0.0 } else { FAR }).collect();
+    let longest = wide.max(tall);
     let (mut line, mut out) = (vec![0.0; longest], vec![0.0; longest]);
     let (mut sites, mut starts) = (vec![0_usize; longest], vec![0.0_f32; longest + 1]);
-    for column in 0..COLUMNS {
-        for row in 0..ROWS {
-            line[row] = field[row * COLUMNS + column];
+    for column in 0..wide {
+        for row in 0..tall {
+            line[row] = field[row * wide + column];
         }
-        envelope(&line[..ROWS], &mut out[..ROWS], &mut sites, &mut starts);
-        for row in 0..ROWS {
-            field[row * COLUMNS + column] = out[row];
+        envelope(&line[..tall], &mut out[..tall], &mut sites, &mut starts);
+        for row in 0..tall {
+            field[row * wide + column] = out[row];
         }
     }
-    for row in field.chunks_exact_mut(COLUMNS) {
-        line[..COLUMNS].copy_from_slice(row);
-        envelope(&line[..COLUMNS], row, &mut sites, &mut starts);
+    for row in field.chunks_exact_mut(wide) {
+        line[..wide].copy_from_slice(row);
+        envelope(&line[..wide], row, &mut sites, &mut starts);
     }
     field.into_iter().map(|d| if d >= FAR { f32::INFINITY } else { d }).collect()
 }

@@ -245,9 +245,9 @@ fn odds(shape: &Shape, at: Point, off: f32, ear: bool) -> [f32; CLASSES] {
     let (x, y) = (at.x.abs(), at.y);
     // Shoulders begin between lobes and chin at the highest.
     let cloth = if y < shape.chin {
-        -6.0 + 4.5 * ((y - shape.lobe) / (shape.chin - shape.lobe).max(10.0)).clamp(0.0, 1.0)
+        -6.0 + 5.5 * ((y - shape.lobe) / (shape.chin - shape.lobe).max(10.0)).clamp(0.0, 1.0)
     } else {
-        -1.5 + 1.5 * ((y - shape.chin) / 30.0).min(1.0)
+        -0.5 + 0.5 * ((y - shape.chin) / 30.0).min(1.0)
     } as f32;
     if off < 0.0 {
         let deep = -off;
@@ -318,10 +318,17 @@ fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Vec<f
     const AGREE: f32 = 4.0;
     let mut labels = softmax(logits);
     for _ in 0..rounds {
-        let pulled: [Vec<f32>; CLASSES] = std::array::from_fn(|k| {
+        // The filter is linear and keeps constants: as labels add up to 1, so do smooth ones, and the last is the rest.
+        let mut rest = vec![1.0_f32; CELLS];
+        let mut pulled = logits.clone();
+        for k in 0..CLASSES - 1 {
             let smooth = guide.filter(&labels[k]);
-            logits[k].iter().zip(smooth).map(|(l, s)| l + AGREE * s).collect()
-        });
+            for (c, s) in smooth.into_iter().enumerate() {
+                pulled[k][c] += AGREE * s;
+                rest[c] -= s;
+            }
+        }
+        pulled[CLASSES - 1].iter_mut().zip(rest).for_each(|(l, s)| *l += AGREE * s);
         labels = softmax(&pulled);
     }
     labels
