@@ -11,7 +11,7 @@ use crate::figure::{AuthorLayer, Cartoon, Figure, LineFigure, MAX_LAYER_BYTES};
 
 /// The figure of a face; the line face where there is no face.
 pub(super) fn figure(root: &Path, face: Option<&LessonFace>) -> Result<Figure> {
-    let Some(face) = face else { return LineFigure::built_in("line").map(Figure::Line) };
+    let Some(face) = face else { return LineFigure::built_in("line").map(Figure::from) };
     let default = if face.has_cartoon() { "cartoon" } else { "line" };
     let named = face.entry.figure.as_deref().unwrap_or(default);
     if named == "cartoon" {
@@ -19,9 +19,9 @@ pub(super) fn figure(root: &Path, face: Option<&LessonFace>) -> Result<Figure> {
     }
     if named.starts_with("figures/") {
         let path = own_file(root, "figure", named, "write figure = \"line\"")?;
-        return LineFigure::parse(&read_text(&path)?).map(Figure::Line).map_err(|f| f.at(&path));
+        return LineFigure::parse(&read_text(&path)?).map(Figure::from).map_err(|f| f.at(&path));
     }
-    LineFigure::built_in(named).map(Figure::Line).map_err(|f| in_manifest(root, "figure", named, f))
+    LineFigure::built_in(named).map(Figure::from).map_err(|f| in_manifest(root, "figure", named, f))
 }
 
 /// The cartoon of a face in its style, with its author's layers.
