@@ -61,7 +61,8 @@ fn the_sample_lesson_exports_every_frame_at_its_size() {
     let header = &frames[0].1[16..24];
     assert_eq!(header, [0, 0, 1, 64, 0, 0, 0, 180]);
     let svg = text(&frames[1].1);
-    for part in ["<g id=\"static\">", "<g id=\"dynamic\">", "<title", "<desc", "id=\"lip-upper\"", "id=\"right-brow\""] {
+    for part in ["<g id=\"static\">", "<g id=\"dynamic\">", "<title", "<desc", "id=\"lip-upper\"", "id=\"right-brow\""]
+    {
         assert!(svg.contains(part), "{part}");
     }
 }

@@ -136,7 +136,8 @@ fn delta_e(one: [f64; 3], two: [f64; 3]) -> f64 {
         (h1 + h2 - 360.0) / 2.0
     };
     let cos = |d: f64| d.to_radians().cos();
-    let t = 1.0 - 0.17 * cos(mh - 30.0) + 0.24 * cos(2.0 * mh) + 0.32 * cos(3.0 * mh + 6.0) - 0.20 * cos(4.0 * mh - 63.0);
+    let t =
+        1.0 - 0.17 * cos(mh - 30.0) + 0.24 * cos(2.0 * mh) + 0.32 * cos(3.0 * mh + 6.0) - 0.20 * cos(4.0 * mh - 63.0);
     let turn = 60.0 * (-((mh - 275.0) / 25.0).powi(2)).exp();
     let sl = 1.0 + 0.015 * (ml - 50.0).powi(2) / (20.0 + (ml - 50.0).powi(2)).sqrt();
     let (sc, sh) = (1.0 + 0.045 * mc, 1.0 + 0.015 * mc * t);
@@ -203,7 +204,8 @@ fn reference(person: &Person) -> [Option<Colour>; 3] {
         ])
     };
     // Forehead: the middle third between brows and hairline.
-    let forehead = place(&[u(76).lerp(u(137), 0.35), u(77).lerp(u(141), 0.35), u(77).lerp(u(141), 0.7), u(76).lerp(u(137), 0.7)]);
+    let forehead =
+        place(&[u(76).lerp(u(137), 0.35), u(77).lerp(u(141), 0.35), u(77).lerp(u(141), 0.7), u(76).lerp(u(137), 0.7)]);
     let cheeks = [cheek(29, 62, 87, 125), cheek(32, 68, 93, 133)];
     let median = |polygons: &[Vec<Point>]| median_inside(&person.photo, polygons, |_| true).unwrap();
     // A fringe over the forehead is no skin.
@@ -217,8 +219,14 @@ fn reference(person: &Person) -> [Option<Colour>; 3] {
     let line: Vec<Point> = (136..=142).map(u).collect();
     let mut band: Vec<Point> = line.iter().map(|p| *p - Vec2::new(0.0, 12.0)).collect();
     band.extend(line.iter().rev().map(|p| Point::new(p.x * 1.05, p.y - 34.0)));
-    let wall = cielab(median_inside(&person.photo, &[vec![
-        Point::new(0.0, 0.0), Point::new(600.0, 0.0), Point::new(600.0, 20.0), Point::new(0.0, 20.0)]], |_| true).unwrap());
+    let wall = cielab(
+        median_inside(
+            &person.photo,
+            &[vec![Point::new(0.0, 0.0), Point::new(600.0, 0.0), Point::new(600.0, 20.0), Point::new(0.0, 20.0)]],
+            |_| true,
+        )
+        .unwrap(),
+    );
     let hair = median_inside(&person.photo, &[place(&band)], |c| delta_e(cielab(c), wall) > 12.0);
     [skin, lips, hair]
 }
@@ -234,11 +242,16 @@ fn colours() {
                 let m = measure(&person.photo, &points);
                 let [skin, lips, hair] = reference(person);
                 let off = |c: Option<Colour>, is: Colour| c.map(|c| delta_e(cielab(c), cielab(is)));
-                (person.id.clone(), [off(skin, m.colours.skin), off(lips, m.colours.lips), off(hair, m.colours.hair)], m.hair.kind)
+                (
+                    person.id.clone(),
+                    [off(skin, m.colours.skin), off(lips, m.colours.lips), off(hair, m.colours.hair)],
+                    m.hair.kind,
+                )
             })
             .collect();
         for (k, name) in ["skin", "lips", "hair"].iter().enumerate() {
-            let mut all: Vec<(f64, &str, HairKind)> = rows.iter().filter_map(|r| Some((r.1[k]?, r.0.as_str(), r.2))).collect();
+            let mut all: Vec<(f64, &str, HairKind)> =
+                rows.iter().filter_map(|r| Some((r.1[k]?, r.0.as_str(), r.2))).collect();
             all.sort_by(|a, b| b.0.total_cmp(&a.0));
             let mean = all.iter().map(|a| a.0).sum::<f64>() / all.len() as f64;
             println!("jitter {jitter} {name}: mean {mean:.2} worst {:?}", &all[..10.min(all.len())]);

@@ -136,6 +136,12 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
     for clip in &lesson.clips {
         note_guess(clip, &jobs);
     }
+    for face in lesson.faces.iter().filter(|f| f.looks_each_time()) {
+        eprintln!(
+            "note: the points of face {} were looked for in its photo; `lianpu face` keeps them",
+            face.entry.name
+        );
+    }
     let frames: u32 = jobs.iter().map(|j| j.frames.len() as u32).sum();
     let bar = progress_bar(frames, args.json);
     let show = |p: Progress| {

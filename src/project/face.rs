@@ -58,6 +58,12 @@ impl LessonFace {
         self.face.is_some()
     }
 
+    /// Whether its cartoon is drawn from points that are in no file.
+    #[must_use]
+    pub fn looks_each_time(&self) -> bool {
+        self.face.is_none() && self.photo.is_some() && self.entry.figure.as_deref() == Some("cartoon")
+    }
+
     /// Its points; where they were never looked for, they are now, and kept in memory only.
     ///
     /// # Errors
