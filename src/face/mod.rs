@@ -4,12 +4,13 @@
 //! It owns no drawing: what a face looks like is a `figure`'s business.
 
 mod file;
-pub mod measure;
+mod measure;
 mod point;
 mod units;
 
 use std::ops::{Index, IndexMut};
 
+pub use measure::{Fitness, Measured, measure};
 pub use point::{FeaturePoint, Part};
 pub use units::{Units, to_face_frame};
 

@@ -43,7 +43,7 @@ impl Backdrop {
             x * x + y * y > 1.0 && p.y < shape.chin + 10.0
         };
         let beyond: Vec<usize> = (0..CELLS)
-            .filter(|c| (c % COLUMNS + c / COLUMNS * 2) % STRIDE == 0 && inside[*c] && far(centre(*c)))
+            .filter(|c| (c % COLUMNS + c / COLUMNS * 2).is_multiple_of(STRIDE) && inside[*c] && far(centre(*c)))
             .collect();
         // Straight above the head high hair may reach the border.
         let seeds: Vec<usize> = beyond.iter().copied().filter(|c| border.0[*c] && centre(*c).x.abs() > 100.0).collect();
@@ -53,13 +53,11 @@ impl Backdrop {
         let mut spread = [0.05, 0.02, 0.02];
         for round in 0..6 {
             surface = fitted(lab, &chosen);
-            spread = scatter(lab, &chosen, &surface, if round < 2 { [0.03, 0.01, 0.01] } else { [0.008, 0.003, 0.003] });
+            spread =
+                scatter(lab, &chosen, &surface, if round < 2 { [0.03, 0.01, 0.01] } else { [0.008, 0.003, 0.003] });
             let pool = if round < 2 { &start } else { &beyond };
-            let fits: Vec<usize> = pool
-                .iter()
-                .copied()
-                .filter(|c| squared(lab[*c], &surface, spread, *c) < 9.0)
-                .collect();
+            let fits: Vec<usize> =
+                pool.iter().copied().filter(|c| squared(lab[*c], &surface, spread, *c) < 9.0).collect();
             if fits.len() < 40 {
                 break;
             }
@@ -69,18 +67,14 @@ impl Backdrop {
         let plain = explained as f64 / start.len().max(1) as f64;
         let spread: Lab = std::array::from_fn(|k| spread[k].max([0.012, 0.004, 0.004][k]));
         // What of the border the surface leaves over has colours of its own: furniture, a window, other people.
-        let left: Vec<(Lab, f32)> = start
-            .iter()
-            .filter(|c| squared(lab[**c], &surface, spread, **c) >= 12.0)
-            .map(|c| (lab[*c], 1.0))
-            .collect();
+        let left: Vec<(Lab, f32)> =
+            start.iter().filter(|c| squared(lab[**c], &surface, spread, **c) >= 12.0).map(|c| (lab[*c], 1.0)).collect();
         let others = (plain < 0.85).then(|| Mixture::of(&left, 4, [0.03, 0.01, 0.01])).flatten();
         let coloured = lab.iter().step_by(7).filter(|c| c[1].hypot(c[2]) > 0.01).count() > lab.len() / 7 / 20;
         let volume: f32 = spread.iter().product();
         Self { surface, spread, log_peak: -2.757 - volume.ln(), others, coloured, plain }
     }
 
-    pub fn describe(&self) -> String { format!("spread {:?} plain {:.2} mid {:?}", self.spread, self.plain, self.colour(100 * COLUMNS + 115)) }
     /// The colour of the surface at a cell.
     pub fn colour(&self, cell: usize) -> Lab {
         value(&self.surface, cell)
@@ -111,7 +105,9 @@ fn border(inside: &[bool]) -> Mask {
     let mut mask = Mask::none();
     for row in 0..ROWS {
         let cells = &inside[row * COLUMNS..(row + 1) * COLUMNS];
-        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else { continue };
+        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else {
+            continue;
+        };
         let above = row >= BAND && inside[(row - BAND) * COLUMNS + (first + last) / 2];
         for column in first..=last {
             mask.0[row * COLUMNS + column] = !above || column < first + BAND || column + BAND > last;

@@ -86,8 +86,7 @@ fn iris(frame: &Frame, shape: &Shape) -> Option<Lab> {
 fn brows(frame: &Frame, shape: &Shape) -> Option<Lab> {
     let p = &shape.points;
     let pairs = [(P::P4_4, P::P4_4A), (P::P4_3, P::P4_3A), (P::P4_2, P::P4_4), (P::P4_1, P::P4_3)];
-    let mut all: Vec<Lab> =
-        pairs.iter().flat_map(|(a, b)| frame.around(p[*a].midpoint(p[*b]), 3.0)).collect();
+    let mut all: Vec<Lab> = pairs.iter().flat_map(|(a, b)| frame.around(p[*a].midpoint(p[*b]), 3.0)).collect();
     all.sort_by(|a, b| a[0].total_cmp(&b[0]));
     median(&all[..all.len() * 35 / 100])
 }

@@ -55,7 +55,7 @@ pub(super) fn neck(regions: &Regions, shape: &Shape) -> f64 {
             let left = (0..middle).rev().take_while(|k| skin(row, *k)).last().unwrap_or(middle);
             let right = (middle..COLUMNS).take_while(|k| skin(row, *k)).last().unwrap_or(middle);
             let x = |column: usize| centre(row * COLUMNS + column).x - shape.points[P::P2_1].x;
-            -x(left) .max(-x(right))
+            -x(left).max(-x(right))
         })
         .collect();
     if widths.len() < 4 {
@@ -65,11 +65,13 @@ pub(super) fn neck(regions: &Regions, shape: &Shape) -> f64 {
     (widths[widths.len() / 2] / shape.half_jaw).clamp(0.66, 0.84)
 }
 
-/// The height of the brows in pupil distances: how far up and down from the middle line the lightness stays below
-/// halfway between brow and skin, the median of four places. 0.12 where no brow stands out.
+/// The height of the brows in pupil distances: how far up and down from its darkest line the brow stands out from
+/// the skin, the median of four places. 0.12 where no brow stands out.
 pub(super) fn brow_height(frame: &Frame, shape: &Shape) -> f64 {
     const USUAL: f64 = 0.12;
     const REACH: i32 = 15;
+    /// Where the hairs thin out to this share of the brow's darkness is its edge, as a hand sets it.
+    const EDGE: f32 = 0.22;
     let p = &shape.points;
     let mut heights = Vec::new();
     for (a, b) in [(P::P4_4, P::P4_4A), (P::P4_4A, P::P4_4), (P::P4_3, P::P4_3A), (P::P4_3A, P::P4_3)] {
@@ -78,11 +80,13 @@ pub(super) fn brow_height(frame: &Frame, shape: &Shape) -> f64 {
         // The mean over nine columns, each shifted along the brow's slope.
         let profile: Vec<f32> = (-REACH..=REACH)
             .map(|dy| {
-                let tone = |dx: i32| frame.at(middle.x + f64::from(dx), middle.y + f64::from(dy) + slope * f64::from(dx))[0];
+                let tone =
+                    |dx: i32| frame.at(middle.x + f64::from(dx), middle.y + f64::from(dy) + slope * f64::from(dx))[0];
                 (-4..=4).map(tone).sum::<f32>() / 9.0
             })
             .collect();
-        let darkest = (6..profile.len() - 6).min_by(|i, j| profile[*i].total_cmp(&profile[*j])).unwrap_or(REACH as usize);
+        let darkest =
+            (6..profile.len() - 6).min_by(|i, j| profile[*i].total_cmp(&profile[*j])).unwrap_or(REACH as usize);
         // Below the brow lies the lid's shadow, so skin is what is lightest within a brow's height on either side.
         let above = profile[..darkest].iter().fold(0.0_f32, |m, v| m.max(*v));
         let below = profile[darkest..].iter().take(14).fold(0.0_f32, |m, v| m.max(*v));
@@ -90,11 +94,11 @@ pub(super) fn brow_height(frame: &Frame, shape: &Shape) -> f64 {
             continue;
         }
         let edge = |levels: &mut dyn Iterator<Item = f32>, light: f32| {
-            let half = (light + profile[darkest]) / 2.0;
+            let edge = light + (profile[darkest] - light) * EDGE;
             let (mut before, mut steps) = (profile[darkest], 0.0);
             for v in levels {
-                if v > half {
-                    return steps + (half - before) / (v - before).max(1e-6);
+                if v > edge {
+                    return steps + (edge - before) / (v - before).max(1e-6);
                 }
                 before = v;
                 steps += 1.0;

@@ -17,6 +17,9 @@ const LEAST_PIECE: f64 = 350.0;
 /// The smallest hole in hair, in square units.
 const LEAST_HOLE: f64 = 260.0;
 
+/// The most outlines of what is seen.
+const MOST_OUTLINES: usize = 24;
+
 /// The hair in units.
 pub(super) struct Found {
     pub kind: HairKind,
@@ -47,11 +50,20 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
     let mask = pieces(&mask, shape);
     let mask = without_brows(mask, shape).without_holes(LEAST_HOLE);
     let mask = pieces(&mask, shape);
-    let top = top(&head.or(&mask));
+    let top = top(&head.or(&mask)).unwrap_or(shape.points[P::P11_1].y);
     let kind = kind(regions, shape, &head, &mask, skin);
     if kind == HairKind::Bald {
         let none = Mask::none();
-        return Found { kind, front: Vec::new(), vertices: Vec::new(), back: Vec::new(), mask: none, ears, top, colour: None };
+        return Found {
+            kind,
+            front: Vec::new(),
+            vertices: Vec::new(),
+            back: Vec::new(),
+            mask: none,
+            ears,
+            top,
+            colour: None,
+        };
     }
     // Short hair has no locks below the ears.
     let mask = if kind == HairKind::Shaved { Mask::of(|c| mask.0[c] && centre(c).y < shape.lobe) } else { mask };
@@ -59,7 +71,7 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
     let mask = if kind == HairKind::Shaved { mask.without_holes(1e9) } else { mask };
     // Over the brows hair faces the camera; beside the face it lies in the shade.
     let core = mask.grown(-2.0);
-    let over = core.and(&Mask::of(|c| centre(c).y < shape.brows - 10.0));
+    let over = core.and(&Mask::of(|c| centre(c).y < shape.brows - 10.0 && regions.from_face[c] < 45.0));
     let facing = if over.area() > 1500.0 { over } else { core };
     let mut colours: Vec<Lab> = facing.cells().map(|c| regions.lab[c]).collect();
     if kind == HairKind::Shaved {
@@ -173,7 +185,9 @@ fn pieces(mask: &Mask, shape: &Shape) -> Mask {
 /// With a window round the brows: those under a fringe could not act (recipe part 6).
 fn without_brows(mut mask: Mask, shape: &Shape) -> Mask {
     let p = &shape.points;
-    for (brow, eye) in [([P::P4_6, P::P4_4A, P::P4_4, P::P4_2], P::P3_6), ([P::P4_1, P::P4_3, P::P4_3A, P::P4_5], P::P3_5)] {
+    for (brow, eye) in
+        [([P::P4_6, P::P4_4A, P::P4_4, P::P4_2], P::P3_6), ([P::P4_1, P::P4_3, P::P4_3A, P::P4_5], P::P3_5)]
+    {
         let mut window: Vec<Point> = brow.iter().map(|b| p[*b] - Vec2::new(0.0, 7.0)).collect();
         window.extend(brow.iter().rev().map(|b| Point::new(p[*b].x, p[eye].y + 4.0)));
         mask = mask.without(&Mask::polygon(&window));
@@ -181,10 +195,10 @@ fn without_brows(mut mask: Mask, shape: &Shape) -> Mask {
     mask
 }
 
-/// The highest row of the head that is at least 6 units wide.
-fn top(head: &Mask) -> f64 {
+/// The highest row of the head that is at least 6 units wide; none where there is no such row.
+fn top(head: &Mask) -> Option<f64> {
     let row = head.0.chunks_exact(COLUMNS).position(|row| row.iter().filter(|v| **v).count() >= 3);
-    row.map_or(f64::NAN, |row| centre(row * COLUMNS).y - CELL / 2.0)
+    row.map(|row| centre(row * COLUMNS).y - CELL / 2.0)
 }
 
 /// The mask with the soft edges of the labels, blurred by about one and a half units.
@@ -218,10 +232,9 @@ fn outlines(field: &[f32]) -> (Vec<Vec<Point>>, Vec<usize>) {
             let (few, first) = simplified(&outline, left, right, TOLERANCE, P::HAIR);
             vertices = first;
             front.push(few);
-        } else if size > LEAST_PIECE / 2.0 || size < -LEAST_HOLE / 2.0 {
-            let far = (0..outline.len()).max_by(|a, b| {
-                outline[*a].distance(outline[0]).total_cmp(&outline[*b].distance(outline[0]))
-            });
+        } else if front.len() < MOST_OUTLINES && !(-LEAST_HOLE / 2.0..=LEAST_PIECE / 2.0).contains(&size) {
+            let far = (0..outline.len())
+                .max_by(|a, b| outline[*a].distance(outline[0]).total_cmp(&outline[*b].distance(outline[0])));
             let (few, _) = simplified(&outline, 0, far.unwrap_or(0), TOLERANCE, 4);
             front.push(few);
         }
@@ -250,7 +263,9 @@ fn back(mask: &Mask, _shape: &Shape) -> Vec<Vec<Point>> {
     let mut filled = mask.clone();
     for row in 0..ROWS {
         let cells = &mut filled.0[row * COLUMNS..(row + 1) * COLUMNS];
-        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else { continue };
+        let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else {
+            continue;
+        };
         let wide = (last - first) as f64 * CELL > 60.0;
         if wide && first < column_at(-30.0) && last > column_at(30.0) {
             cells[first..=last].fill(true);

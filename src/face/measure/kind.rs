@@ -35,7 +35,8 @@ pub(super) fn kind(regions: &Regions, shape: &Shape, head: &Mask, mask: &Mask, s
     let forehead = median(&colours(&forehead)).unwrap_or(skin);
     let chroma = |c: Lab| c[1].hypot(c[2]);
     let lit = |light: f32| {
-        let share = if light > forehead[0] { (1.0 - light).max(0.0) / (1.0 - forehead[0]) } else { light / forehead[0] };
+        let share =
+            if light > forehead[0] { (1.0 - light).max(0.0) / (1.0 - forehead[0]) } else { light / forehead[0] };
         chroma(forehead) * share
     };
     // Of a photo without colour only lightness tells.

@@ -31,17 +31,19 @@ pub(super) struct Regions {
 }
 
 impl Regions {
+    /// How likely each cell is hair.
     pub fn hair(&self) -> &[f32] {
         &self.classes[HAIR]
     }
+
+    /// How likely each cell is skin.
     pub fn skin(&self) -> &[f32] {
         &self.classes[SKIN]
     }
+
+    /// How likely each cell is what lies behind the head.
     pub fn back(&self) -> &[f32] {
         &self.classes[BACK]
-    }
-    pub fn cloth(&self) -> &[f32] {
-        &self.classes[CLOTH]
     }
 
     /// How sure the labels around a place in units are, 0 to 1.
@@ -75,9 +77,8 @@ impl Regions {
         let mut skin = skin_of(&tones);
         let mut shaded = shaded(skin_of(&tones));
         // Skin is learned where neither brows nor eyes, lips or beard are.
-        let clear: Vec<bool> = (0..CELLS)
-            .map(|c| from_face[c] >= 0.0 || cheeks.0[c] || centre(c).y < shape.brows - 9.0)
-            .collect();
+        let clear: Vec<bool> =
+            (0..CELLS).map(|c| from_face[c] >= 0.0 || cheeks.0[c] || centre(c).y < shape.brows - 9.0).collect();
         // What lies below the lobes or outside the face is skin in the shade as well.
         let bright: Vec<bool> = (0..CELLS).map(|c| from_face[c] < 0.0 && centre(c).y < shape.lobe).collect();
         let mut hair = first_hair(shape, &lab, &inside, &from_face, &behind, &skin);
@@ -126,7 +127,8 @@ impl Regions {
                 if let Some(found) = learn(SKIN, 3, &|c| bright[c] && clear[c] && apart(c)) {
                     skin = found;
                 }
-                if let Some(found) = learn(SKIN, 4, &|c| clear[c] && (from_face[c] < 10.0 || centre(c).y > shape.lobe)) {
+                if let Some(found) = learn(SKIN, 4, &|c| clear[c] && (from_face[c] < 10.0 || centre(c).y > shape.lobe))
+                {
                     shaded = found;
                 }
                 hair = learn(HAIR, 3, &|c| behind[c] < WALL).map(|found| without_skin(found, &skin)).or(hair);
@@ -203,9 +205,11 @@ fn first_cloth(shape: &Shape, lab: &[Lab], inside: &[bool]) -> Option<Mixture> {
     let last = (0..ROWS).rev().find(|row| shown(*row))?;
     let top = (shape.chin + 20.0).max(centre(last * COLUMNS).y - 40.0);
     let samples: Vec<(Lab, f32)> = (0..CELLS)
-        .filter(|c| c % 2 == 0 && inside[*c] && {
-            let p = centre(*c);
-            p.y > top && (0.9 * shape.half_jaw..200.0).contains(&p.x.abs())
+        .filter(|c| {
+            c % 2 == 0 && inside[*c] && {
+                let p = centre(*c);
+                p.y > top && (0.9 * shape.half_jaw..200.0).contains(&p.x.abs())
+            }
         })
         .map(|c| (lab[c], 1.0))
         .collect();
@@ -215,11 +219,8 @@ fn first_cloth(shape: &Shape, lab: &[Lab], inside: &[bool]) -> Option<Mixture> {
 /// What the points let expect of every cell: logarithms of odds, by class.
 fn expected(shape: &Shape, from_face: &[f32]) -> [Vec<f32>; CLASSES] {
     let p = &shape.points;
-    let ears = [
-        [p[P::P10_2], p[P::P10_4], p[P::P10_6]],
-        [p[P::P10_1], p[P::P10_3], p[P::P10_5]],
-    ]
-    .map(|[top, out, lobe]| Mask::polygon(&ear(top, out, lobe)));
+    let ears = [[p[P::P10_2], p[P::P10_4], p[P::P10_6]], [p[P::P10_1], p[P::P10_3], p[P::P10_5]]]
+        .map(|[top, out, lobe]| Mask::polygon(&ear(top, out, lobe)));
     let mut found: [Vec<f32>; CLASSES] = std::array::from_fn(|_| vec![0.0; CELLS]);
     for c in 0..CELLS {
         let at = centre(c);
@@ -306,8 +307,7 @@ impl Guide {
     fn filter(&self, field: &[f32]) -> Vec<f32> {
         let mean = boxed(field, REACH);
         let joint = boxed(&field.iter().zip(&self.light).map(|(f, g)| f * g).collect::<Vec<_>>(), REACH);
-        let slope: Vec<f32> =
-            (0..CELLS).map(|c| (joint[c] - mean[c] * self.mean[c]) * self.inverse[c]).collect();
+        let slope: Vec<f32> = (0..CELLS).map(|c| (joint[c] - mean[c] * self.mean[c]) * self.inverse[c]).collect();
         let offset: Vec<f32> = (0..CELLS).map(|c| mean[c] - slope[c] * self.mean[c]).collect();
         let (slope, offset) = (boxed(&slope, REACH), boxed(&offset, REACH));
         (0..CELLS).map(|c| slope[c] * self.light[c] + offset[c]).collect()
