@@ -3,10 +3,10 @@
 
 use std::fmt;
 
-use super::find::{Anchors, Found, Refusal, find, find_from};
-use super::measure::{Measured, measure};
-use super::{Face, FeaturePoint, How, PhotoRecord, Units};
+use super::find::{Anchors, Doubt, Found, Refusal, find, find_from};
+use super::{Face, FeaturePoint, How, Measured, PhotoRecord, Placed, measure};
 use crate::disk::Fault;
+use crate::geometry::Point;
 use crate::photo::Photo;
 
 /// A face and what there is to say of it.
@@ -41,12 +41,12 @@ impl fmt::Display for Warning {
 pub fn create(photo: &Photo, sha256: &str, kept: Option<&Face>, anchors: Option<&Anchors>) -> Result<Created, Refusal> {
     let hands: Vec<_> = kept.map(by_hand).unwrap_or_default();
     let found = match anchors {
-        Some(anchors) => find_from(photo, anchors, &hands)?,
+        Some(anchors) => with_hands(find_from(photo, anchors), &hands),
         None => find(photo, &hands)?,
     };
     let points = super::Points(found.points.map(|p| p.at));
     let measured = measure(photo, &points);
-    let warnings = warnings(photo, &found, &measured);
+    let warnings = warnings(&found, &measured);
     let mut face = Face {
         points: found.points,
         colours: measured.colours,
@@ -67,7 +67,7 @@ pub fn create(photo: &Photo, sha256: &str, kept: Option<&Face>, anchors: Option<
 }
 
 /// The points that every face has and a hand has set.
-fn by_hand(face: &Face) -> Vec<(FeaturePoint, crate::geometry::Point)> {
+fn by_hand(face: &Face) -> Vec<(FeaturePoint, Point)> {
     FeaturePoint::fixed()
         .filter_map(|p| face.placed(p).filter(|placed| placed.how == How::Hand).map(|placed| (p, placed.at)))
         .collect()
@@ -91,35 +91,37 @@ fn trust_ears_as_far_as_seen(face: &mut Face) {
     }
 }
 
-/// Half the width of the photo's smallest face whose points can be trusted, in pixels between the pupils.
-const SMALL: f64 = 50.0;
+/// What was found from four places, with what a hand has set before.
+fn with_hands(mut found: Found, hands: &[(FeaturePoint, Point)]) -> Found {
+    for (point, at) in hands {
+        found.points[point.index()] = Placed { at: *at, confidence: 1.0, how: How::Hand };
+    }
+    found
+}
+
+/// What to do about a doubt.
+fn help(doubt: &Doubt) -> &'static str {
+    match doubt {
+        Doubt::Tilted(_) => "hold the head upright",
+        Doubt::Turned(_) => "look straight into the camera",
+        Doubt::MouthOpen(_) => "close it: the cartoon's mouth opens from a closed one",
+        Doubt::Small(_) => "take the photo nearer, or do not scale it down",
+        Doubt::Unusual | Doubt::Guessed(_) => "look at the points and correct them in the studio",
+    }
+}
 
 /// The photo check: what breaks the assumptions of the method (thesis sec. 1.3.2).
-fn warnings(photo: &Photo, found: &Found, measured: &Measured) -> Vec<Warning> {
+fn warnings(found: &Found, measured: &Measured) -> Vec<Warning> {
     let mut out = Vec::new();
     let mut warn = |when: bool, what: String, help: &'static str| {
         if when {
             out.push(Warning { what, help });
         }
     };
-    let points = super::Points(found.points.map(|p| p.at));
-    let units = Units::of(&points);
     let fit = &measured.fitness;
-    warn(
-        units.eye_separation < SMALL,
-        format!("the face is small: {:.0} pixels between the pupils", units.eye_separation),
-        "take the photo nearer, or do not scale it down",
-    );
-    warn(found.roll.abs() > 10.0, format!("the head is tilted by {:.0}°", found.roll.abs()), "hold the head upright");
     for doubt in &found.doubts {
-        warn(true, doubt.to_string(), doubt.help());
+        warn(true, doubt.to_string(), help(doubt));
     }
-    let parted = points[FeaturePoint::P2_2].distance(points[FeaturePoint::P2_3]);
-    warn(
-        parted > 0.12 * units.mouth_width,
-        "the mouth is open".into(),
-        "close it: the cartoon's own mouth opens from a closed one",
-    );
     let side = if fit.side_light > 0.0 { "left" } else { "right" };
     warn(
         fit.side_light.abs() > 0.10,
@@ -143,7 +145,6 @@ fn warnings(photo: &Photo, found: &Found, measured: &Measured) -> Vec<Warning> {
     );
     warn(fit.highlights < 0.5, "the photo is dark".into(), "take it in better light");
     warn(fit.burnt > 0.03, "the photo is too light: parts of the skin are white".into(), "take it in softer light");
-    let _ = photo;
     out
 }
 

@@ -6,7 +6,7 @@
 mod create;
 mod file;
 pub mod find;
-pub mod measure;
+mod measure;
 mod point;
 pub mod rig;
 pub mod thesis;
@@ -17,6 +17,7 @@ use std::ops::{Index, IndexMut};
 pub use create::{Created, Warning, create};
 pub use file::MAX_COORDINATE;
 pub use find::{Anchors, Refusal};
+pub use measure::{Fitness, Measured, measure};
 pub use point::{FeaturePoint, Part};
 pub use units::{Units, to_face_frame};
 

@@ -43,7 +43,7 @@ impl Backdrop {
             x * x + y * y > 1.0 && p.y < shape.chin + 10.0
         };
         let beyond: Vec<usize> = (0..CELLS)
-            .filter(|c| (c % COLUMNS + c / COLUMNS * 2) % STRIDE == 0 && inside[*c] && far(centre(*c)))
+            .filter(|c| (c % COLUMNS + c / COLUMNS * 2).is_multiple_of(STRIDE) && inside[*c] && far(centre(*c)))
             .collect();
         // Straight above the head high hair may reach the border.
         let seeds: Vec<usize> = beyond.iter().copied().filter(|c| border.0[*c] && centre(*c).x.abs() > 100.0).collect();
@@ -75,9 +75,6 @@ impl Backdrop {
         Self { surface, spread, log_peak: -2.757 - volume.ln(), others, coloured, plain }
     }
 
-    pub fn describe(&self) -> String {
-        format!("spread {:?} plain {:.2} mid {:?}", self.spread, self.plain, self.colour(100 * COLUMNS + 115))
-    }
     /// The colour of the surface at a cell.
     pub fn colour(&self, cell: usize) -> Lab {
         value(&self.surface, cell)

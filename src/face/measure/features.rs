@@ -65,11 +65,13 @@ pub(super) fn neck(regions: &Regions, shape: &Shape) -> f64 {
     (widths[widths.len() / 2] / shape.half_jaw).clamp(0.66, 0.84)
 }
 
-/// The height of the brows in pupil distances: how far up and down from the middle line the lightness stays below
-/// halfway between brow and skin, the median of four places. 0.12 where no brow stands out.
+/// The height of the brows in pupil distances: how far up and down from its darkest line the brow stands out from
+/// the skin, the median of four places. 0.12 where no brow stands out.
 pub(super) fn brow_height(frame: &Frame, shape: &Shape) -> f64 {
     const USUAL: f64 = 0.12;
     const REACH: i32 = 15;
+    /// Where the hairs thin out to this share of the brow's darkness is its edge, as a hand sets it.
+    const EDGE: f32 = 0.22;
     let p = &shape.points;
     let mut heights = Vec::new();
     for (a, b) in [(P::P4_4, P::P4_4A), (P::P4_4A, P::P4_4), (P::P4_3, P::P4_3A), (P::P4_3A, P::P4_3)] {
@@ -92,11 +94,11 @@ pub(super) fn brow_height(frame: &Frame, shape: &Shape) -> f64 {
             continue;
         }
         let edge = |levels: &mut dyn Iterator<Item = f32>, light: f32| {
-            let half = (light + profile[darkest]) / 2.0;
+            let edge = light + (profile[darkest] - light) * EDGE;
             let (mut before, mut steps) = (profile[darkest], 0.0);
             for v in levels {
-                if v > half {
-                    return steps + (half - before) / (v - before).max(1e-6);
+                if v > edge {
+                    return steps + (edge - before) / (v - before).max(1e-6);
                 }
                 before = v;
                 steps += 1.0;

@@ -3,7 +3,7 @@
 use crate::drawing::{Colour, Oklab};
 use crate::face::{FeaturePoint as P, Points, to_face_frame};
 use crate::geometry::{Affine, Point, Rect};
-use crate::photo::{Photo, Plane};
+use crate::photo::Photo;
 
 /// What of the face frame is looked at, in units of which the pupils are 100 apart: it holds long hair and big hair.
 pub(super) const VIEW: Rect = Rect::new(-230.0, -260.0, 230.0, 320.0);
@@ -21,8 +21,6 @@ pub(super) struct Frame {
     pub lab: Vec<Lab>,
     /// Whether the photo shows the place; beyond its border the nearest pixel's colour stands in.
     pub inside: Vec<bool>,
-    /// Pixels of the photo that one unit is.
-    pub scale: f64,
     to_units: Affine,
     to_photo: Affine,
 }
@@ -48,7 +46,7 @@ impl Frame {
                 lab.push(curve.oklab(small.sample(x, y)));
             }
         }
-        Self { lab, inside, scale, to_units, to_photo }
+        Self { lab, inside, to_units, to_photo }
     }
 
     /// The 47 points in units.
@@ -66,11 +64,6 @@ impl Frame {
         let column = (x - VIEW.x0).round().clamp(0.0, (WIDTH - 1) as f64) as usize;
         let row = (y - VIEW.y0).round().clamp(0.0, (HEIGHT - 1) as f64) as usize;
         self.lab[row * WIDTH + column]
-    }
-
-    /// Lightness alone.
-    pub fn lightness(&self) -> Plane {
-        Plane { width: WIDTH, height: HEIGHT, values: self.lab.iter().map(|c| c[0]).collect() }
     }
 
     /// All colours within `radius` units of `at`, a square.
@@ -259,7 +252,6 @@ mod tests {
             Frame::of(&Photo::new(w, h, pixels), &points)
         };
         let (one, four) = (of(1), of(4));
-        assert!((four.scale - 4.0).abs() < 1e-9);
         let off: f32 =
             one.lab.iter().zip(&four.lab).map(|(a, b)| (a[0] - b[0]).abs()).sum::<f32>() / one.lab.len() as f32;
         assert!(off < 0.01, "mean difference {off}");

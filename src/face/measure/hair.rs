@@ -17,6 +17,9 @@ const LEAST_PIECE: f64 = 350.0;
 /// The smallest hole in hair, in square units.
 const LEAST_HOLE: f64 = 260.0;
 
+/// The most outlines of what is seen.
+const MOST_OUTLINES: usize = 24;
+
 /// The hair in units.
 pub(super) struct Found {
     pub kind: HairKind,
@@ -47,7 +50,7 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
     let mask = pieces(&mask, shape);
     let mask = without_brows(mask, shape).without_holes(LEAST_HOLE);
     let mask = pieces(&mask, shape);
-    let top = top(&head.or(&mask));
+    let top = top(&head.or(&mask)).unwrap_or(shape.points[P::P11_1].y);
     let kind = kind(regions, shape, &head, &mask, skin);
     if kind == HairKind::Bald {
         let none = Mask::none();
@@ -68,7 +71,7 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
     let mask = if kind == HairKind::Shaved { mask.without_holes(1e9) } else { mask };
     // Over the brows hair faces the camera; beside the face it lies in the shade.
     let core = mask.grown(-2.0);
-    let over = core.and(&Mask::of(|c| centre(c).y < shape.brows - 10.0));
+    let over = core.and(&Mask::of(|c| centre(c).y < shape.brows - 10.0 && regions.from_face[c] < 45.0));
     let facing = if over.area() > 1500.0 { over } else { core };
     let mut colours: Vec<Lab> = facing.cells().map(|c| regions.lab[c]).collect();
     if kind == HairKind::Shaved {
@@ -192,10 +195,10 @@ fn without_brows(mut mask: Mask, shape: &Shape) -> Mask {
     mask
 }
 
-/// The highest row of the head that is at least 6 units wide.
-fn top(head: &Mask) -> f64 {
+/// The highest row of the head that is at least 6 units wide; none where there is no such row.
+fn top(head: &Mask) -> Option<f64> {
     let row = head.0.chunks_exact(COLUMNS).position(|row| row.iter().filter(|v| **v).count() >= 3);
-    row.map_or(f64::NAN, |row| centre(row * COLUMNS).y - CELL / 2.0)
+    row.map(|row| centre(row * COLUMNS).y - CELL / 2.0)
 }
 
 /// The mask with the soft edges of the labels, blurred by about one and a half units.
@@ -229,7 +232,7 @@ fn outlines(field: &[f32]) -> (Vec<Vec<Point>>, Vec<usize>) {
             let (few, first) = simplified(&outline, left, right, TOLERANCE, P::HAIR);
             vertices = first;
             front.push(few);
-        } else if size > LEAST_PIECE / 2.0 || size < -LEAST_HOLE / 2.0 {
+        } else if front.len() < MOST_OUTLINES && !(-LEAST_HOLE / 2.0..=LEAST_PIECE / 2.0).contains(&size) {
             let far = (0..outline.len())
                 .max_by(|a, b| outline[*a].distance(outline[0]).total_cmp(&outline[*b].distance(outline[0])));
             let (few, _) = simplified(&outline, 0, far.unwrap_or(0), TOLERANCE, 4);

@@ -6,6 +6,8 @@ use super::shape::{Shape, USUAL_JAW, jaw_curve};
 use crate::face::FeaturePoint as P;
 use crate::geometry::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec2};
 
+/// The handles of a jaw whose edge is not seen at all: a soft one (recipe part 1).
+const UNSEEN: [f64; 2] = [0.6, 0.5];
 /// Places along each half of the jaw at which its edge is looked for.
 const PLACES: usize = 20;
 /// How far from the usual jaw the edge is looked for, in units.
@@ -37,10 +39,15 @@ pub(super) fn handles(frame: &Frame, shape: &Shape) -> [f64; 2] {
                 sum += s.clear * (off / (1.0 + off / 25.0));
             }
         }
-        // As much as one clear place in ten being a unit off for every 0.1 of a handle.
+        // A handle 0.1 off the usual weighs as much as three clear places that are a unit off.
+        const HELD: f64 = 300.0;
         let held = (handles[0] - USUAL_JAW[0]).powi(2) + (handles[1] - USUAL_JAW[1]).powi(2);
-        sum + held * 100.0 * 0.1 * PLACES as f64 * 0.5
+        sum + held * HELD
     };
+    let clear = halves.iter().flat_map(|h| &h.2).map(|s| s.clear).sum::<f64>() / (2 * PLACES) as f64;
+    if clear < 0.15 {
+        return UNSEEN;
+    }
     let mut best = (cost(USUAL_JAW), USUAL_JAW);
     let mut step = 0.16;
     while step > 0.006 {
@@ -64,6 +71,8 @@ pub(super) fn handles(frame: &Frame, shape: &Shape) -> [f64; 2] {
 /// its neighbours (dynamic programming over the offset from the curve).
 fn edge(frame: &Frame, curve: &CubicBez) -> Vec<Seen> {
     const OFFSETS: usize = (2 * REACH * STEPS + 1) as usize;
+    /// What being a unit off the usual jaw costs, squared: collars and locks are strong edges too.
+    const FAR: f64 = 0.0015;
     /// What a unit of change of the offset between two places costs.
     const BEND: f64 = 0.012;
     let offset = |k: usize| f64::from(k as i32 - REACH * STEPS) / f64::from(STEPS);
@@ -93,7 +102,7 @@ fn edge(frame: &Frame, curve: &CubicBez) -> Vec<Seen> {
                     let (inner, outer) = (mean([-1.5, -3.0, -4.5]), mean([1.5, 3.0, 4.5]));
                     let d = [0, 1, 2].map(|c| f64::from(inner[c] - outer[c]));
                     // Towards the neck's shade it gets darker; a wall or hair may differ in any way.
-                    d[0].max(0.6 * -d[0]) + 1.5 * d[1].hypot(d[2])
+                    d[0].max(0.6 * -d[0]) + 1.5 * d[1].hypot(d[2]) - FAR * offset(k).powi(2)
                 })
                 .collect()
         })
@@ -104,8 +113,8 @@ fn edge(frame: &Frame, curve: &CubicBez) -> Vec<Seen> {
         let mut next = vec![f64::NEG_INFINITY; OFFSETS];
         let mut came = vec![0; OFFSETS];
         for k in 0..OFFSETS {
-            for j in k.saturating_sub(4)..=(k + 4).min(OFFSETS - 1) {
-                let v = total[j] - BEND * (offset(k) - offset(j)).abs();
+            for (j, before) in total.iter().enumerate().take(k + 5).skip(k.saturating_sub(4)) {
+                let v = before - BEND * (offset(k) - offset(j)).abs();
                 if v > next[k] {
                     next[k] = v;
                     came[k] = j;

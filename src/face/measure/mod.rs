@@ -75,38 +75,6 @@ pub fn measure(photo: &Photo, points: &Points) -> Measured {
         colours: colours::colours(&frame, &shape, &cheeks, found.colour),
         measures,
         hair,
-        fitness: fitness::Fitness::of(&regions, &shape, &cheeks, &found, glasses),
-    }
-}
-
-/// temporary
-pub struct Debug {
-    pub q: Vec<[f32; 4]>,
-    pub lab: Vec<[f32; 3]>,
-    pub m: Measured,
-    pub area: f64,
-    pub lines: [f64; 2],
-    pub note: String,
-    pub behind: Vec<f32>,
-    pub bd: String,
-}
-/// temporary
-pub fn debug(photo: &Photo, points: &Points) -> Debug {
-    let m = measure(photo, points);
-    let frame = frame::Frame::of(photo, points);
-    let shape = shape::Shape::of(frame.units(points));
-    let cheeks = colours::cheeks(&frame, &shape);
-    let r = segment::Regions::of(&frame, &shape);
-    let f = hair::found(&r, &shape, cheeks.skin);
-    let q = (0..mask::CELLS).map(|c| [r.back()[c], r.skin()[c], r.hair()[c], r.cloth()[c]]).collect();
-    Debug {
-        behind: (0..mask::CELLS).map(|c| r.backdrop.log(r.lab[c], c)).collect(),
-        bd: r.backdrop.describe(),
-        q,
-        lab: r.lab.clone(),
-        area: f.mask.area(),
-        lines: glasses::lines(&frame, &shape),
-        m,
-        note: format!("{:?}", f.kind),
+        fitness: Fitness::of(&regions, &shape, &cheeks, &found, glasses),
     }
 }

@@ -55,9 +55,9 @@ pub(super) fn loops(field: &[f32]) -> Vec<Vec<Point>> {
     }
     let place = |edge: usize| {
         let (row, column) = (edge / 2 / WIDE, edge / 2 % WIDE);
-        let (a, b) = (at(row, column), if edge % 2 == 0 { at(row, column + 1) } else { at(row + 1, column) });
+        let (a, b) = (at(row, column), if edge.is_multiple_of(2) { at(row, column + 1) } else { at(row + 1, column) });
         let part = f64::from((LEVEL - a) / (b - a)).clamp(0.0, 1.0);
-        let (dx, dy) = if edge % 2 == 0 { (part, 0.0) } else { (0.0, part) };
+        let (dx, dy) = if edge.is_multiple_of(2) { (part, 0.0) } else { (0.0, part) };
         let unit = |cells: f64, corner: f64| (cells - 1.0) * CELL + 0.5 + corner;
         Point::new(unit(column as f64 + dx, VIEW.x0), unit(row as f64 + dy, VIEW.y0))
     };
@@ -121,8 +121,7 @@ pub(super) fn simplified(
         kept.push(other);
         spans.extend([stray(0, other), stray(other, n)]);
     }
-    loop {
-        let Some((k, worst)) = spans.iter().enumerate().max_by(|a, b| a.1.3.total_cmp(&b.1.3)) else { break };
+    while let Some((k, worst)) = spans.iter().enumerate().max_by(|a, b| a.1.3.total_cmp(&b.1.3)) {
         let (from, to, middle, off) = *worst;
         if off < 0.0 || (off <= tolerance && kept.len() >= least) {
             break;

@@ -31,17 +31,19 @@ pub(super) struct Regions {
 }
 
 impl Regions {
+    /// How likely each cell is hair.
     pub fn hair(&self) -> &[f32] {
         &self.classes[HAIR]
     }
+
+    /// How likely each cell is skin.
     pub fn skin(&self) -> &[f32] {
         &self.classes[SKIN]
     }
+
+    /// How likely each cell is what lies behind the head.
     pub fn back(&self) -> &[f32] {
         &self.classes[BACK]
-    }
-    pub fn cloth(&self) -> &[f32] {
-        &self.classes[CLOTH]
     }
 
     /// How sure the labels around a place in units are, 0 to 1.
