@@ -110,7 +110,12 @@ fn what_a_hand_has_set_is_kept_when_the_points_are_found_again() {
     assert!((kept.at.x - (corner.x - 6.0)).abs() < 0.11 && kept.how == How::Hand && kept.confidence == 1.0, "{kept:?}");
     // The eyes do not care where a corner of the mouth is.
     let eye = |face: &Face| face.points[FeaturePoint::P3_6.index()].at;
-    assert!(eye(&after).distance(eye(&before)) < 1.0);
+    let off = eye(&after).distance(eye(&before));
+    assert!(off < 1.0, "the eye moved by {off} pixels");
+    for file in ["score.toml", "timing.TextGrid"] {
+        let read = |root: &Path| std::fs::read(root.join("clips/nihao").join(file)).unwrap();
+        assert_eq!(read(&project), read(&self::root().join("projects/nihao")), "{file}");
+    }
 }
 
 #[test]

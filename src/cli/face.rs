@@ -15,7 +15,7 @@ use crate::geometry::Point;
 use crate::photo::{Photo, Stages};
 use crate::plot;
 use crate::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
-use crate::project::{Change, Edit, Lesson, LessonFace};
+use crate::project::{Lesson, LessonFace};
 use crate::render::{Painter, encode_png};
 
 /// Find the 72 points of a face and what else its cartoon needs.
@@ -114,14 +114,8 @@ fn of_project(
     let path = face.photo.clone().ok_or_else(|| no_photo(face))?;
     let (photo, sha256) = Photo::read_with_sum(&path)?;
     let created = create(&photo, &sha256, face.face.as_ref(), anchors).map_err(|r| Fault::from(r).at(&path))?;
-    let (before, after) = (face.face.as_ref().map(Face::to_toml), created.face.to_toml());
-    if before.as_ref() != Some(&after) {
-        let edit = Edit::Face { face: number, before, after: Some(after) };
-        lesson.change(Change::one("find the face's points", edit))?;
-    }
-    let written = lesson.save()?;
+    let done = if lesson.write_face(number, created.face.clone())? { "wrote" } else { "nothing has changed in" };
     let file = lesson.faces[number].path();
-    let done = if written.contains(&file) { "wrote" } else { "nothing has changed in" };
     let said = format!("{done} {}: {}", file.display(), summary(&created.face));
     Ok((photo, created, Some(said)))
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Clip, Lesson, LessonFace};
 use crate::disk::{Fault, Result, write_whole};
+use crate::face::Face;
 use crate::timeline::Score;
 use crate::timing::{self, Format};
 
@@ -29,6 +30,24 @@ impl Lesson {
         }
         self.history.mark_saved();
         Ok(written)
+    }
+
+    /// Writes one face's `face.toml` and nothing else; whether it differed from what was there.
+    ///
+    /// # Errors
+    /// When the lesson is read-only, has changes that are not in its files, or the file cannot be written.
+    pub fn write_face(&mut self, number: usize, face: Face) -> Result<bool> {
+        if let Some(why) = &self.read_only {
+            return Err(super::lesson::refusal("changed", why));
+        }
+        if self.is_unsaved() {
+            return Err(Fault::new("the lesson has changes that were never saved")
+                .at(&self.root)
+                .help("open it in the studio and save or discard them"));
+        }
+        let kept = &mut self.faces[number];
+        kept.face = Some(face);
+        Ok(kept.save()?.is_some())
     }
 
     /// Drops every change that is not in the files: the journal forgets them, so that no later run brings them back,

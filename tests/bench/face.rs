@@ -43,7 +43,7 @@ fn faces(c: &mut Criterion) {
     group.bench_function("whole, 3600 x 3600", |b| b.iter(|| to_toml(black_box(&large))));
     group.bench_function("decode, 600 x 600", |b| b.iter(|| Photo::decode(black_box(&bytes)).unwrap()));
     group.bench_function("decode, 3600 x 3600", |b| b.iter(|| Photo::decode(black_box(&large)).unwrap()));
-    group.bench_function("measure", |b| b.iter(|| measure::measure(black_box(&photo), &points)));
+    group.bench_function("measure", |b| b.iter(|| measure(black_box(&photo), &points)));
     group.bench_function("stages of the thesis", |b| b.iter(|| Stages::of(black_box(&photo))));
     let style = Style::built_in("normal").unwrap();
     group.bench_function("cartoon made", |b| b.iter(|| Cartoon::new(black_box(&face), &style)));
