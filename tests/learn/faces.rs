@@ -19,7 +19,7 @@ mod windows;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::face::find::{Model, Pyramid, WORKING_SIDE};
+use lianpu::face::find::{Fit, Model, Pyramid, WORKING_SIDE};
 use lianpu::geometry::Point;
 use lianpu::photo::Photo;
 
@@ -55,6 +55,20 @@ fn main() {
     let (mut errors, mut scores, mut smiles) = (Vec::new(), Vec::new(), Vec::new());
     for fold in 0..folds {
         println!("fold {fold}");
+        if has("--points") {
+            let mut chance = chance::Chance(fold as u64 + 55);
+            let (shapes, coarse, fine) = whole::fitted(&material, starts, &|person| fold_of(person) != fold);
+            for shot in material.neutral.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
+                let picture = Pyramid::of(&shot.photo, 1.0);
+                for _ in 0..2 {
+                    let frame = points::shaken(&shapes, &shot.truth, &mut chance);
+                    let fit = Fit::at(&shapes, frame).through(&shapes, &coarse, &picture, &[], 1.0);
+                    let fit = fit.by_all(&shapes, &fine, &picture, &[]);
+                    errors.push(off(&fit.places(), &shot.truth, &material.scheme));
+                }
+            }
+            continue;
+        }
         let model = whole::learn(&material, starts, |person| fold_of(person) != fold);
         let model = Model::from_bytes(&model.to_bytes()).unwrap();
         for shot in material.neutral.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
@@ -67,6 +81,9 @@ fn main() {
         }
     }
     report(&errors, &material.scheme);
+    if scores.is_empty() {
+        return;
+    }
     spread_of("neutral", &scores);
     spread_of("smiling", &smiles);
     let eyes = [material.scheme.index("3.6"), material.scheme.index("3.5")];
@@ -106,7 +123,7 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
             scores.push(score);
             if folder == "imm240" {
                 let text = std::fs::read_to_string(name.with_extension("asf")).unwrap();
-                let rows: Vec<Vec<f64>> = text.lines().filter(|l| l.split_whitespace().count() == 7 && !l.starts_with('#')).map(|l| l.split_whitespace().map(|v| v.parse().unwrap()).collect()).collect();
+                let rows: Vec<Vec<f64>> = text.lines().filter(|l| l.split_whitespace().count() >= 7 && !l.starts_with('#')).map(|l| l.split_whitespace().map(|v| v.parse().unwrap_or(0.0)).collect()).collect();
                 let at = |i: usize| Point::new(rows[i][2] * 640.0, rows[i][3] * 480.0);
                 // 13 to 20 go round one eye, 21 to 28 round the other; see the pictures.
                 let middle = |from: usize| { let (mut x, mut y) = (0.0, 0.0); for i in from..from + 8 { x += at(i).x / 8.0; y += at(i).y / 8.0; } Point::new(x, y) };

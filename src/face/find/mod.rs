@@ -4,6 +4,7 @@ pub mod cascade;
 pub mod channels;
 pub mod detector;
 mod fit;
+pub mod looks;
 mod frame;
 mod model;
 mod pyramid;

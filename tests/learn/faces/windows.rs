@@ -59,7 +59,7 @@ pub fn logistic(yes: &[Vec<f32>], no: &[Vec<f32>], penalty: f32) -> (Vec<f32>, f
     });
     let weight = |i: usize| if i < yes.len() { 0.5 / yes.len() as f32 } else { 0.5 / no.len() as f32 };
     let mut w = DVector::<f32>::zeros(d);
-    for _ in 0..7 {
+    for _ in 0..5 {
         let z = &x * &w;
         let mut scaled = x.clone();
         let mut slope = DVector::<f32>::zeros(n);
