@@ -100,7 +100,7 @@ impl Model {
 }
 
 /// Whether two frames are of different faces.
-fn apart(a: &Frame, b: &Frame) -> bool {
+pub fn apart(a: &Frame, b: &Frame) -> bool {
     let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
     middle(a).distance(middle(b)) > 0.9 * a.scale().max(b.scale())
 }
