@@ -19,10 +19,11 @@ mod windows;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::face::find::{Model, Pyramid, WORKING_SIDE};
+use lianpu::face::find::{self, Fit, Frame, Model, Pyramid, WORKING_SIDE};
 use lianpu::geometry::Point;
-use lianpu::photo::Photo;
+use lianpu::photo::{Photo, Plane};
 
+use chance::Chance;
 use photos::{Scheme, Shot};
 use whole::Material;
 
@@ -55,30 +56,43 @@ fn main() {
     let (mut errors, mut scores, mut smiles) = (Vec::new(), Vec::new(), Vec::new());
     for fold in 0..folds {
         println!("fold {fold}");
+        if has("--points") {
+            let mut chance = Chance(fold as u64 + 55);
+            let (shapes, coarse, fine) = whole::fitted(&material, starts, &|person| fold_of(person) != fold);
+            for shot in material.neutral.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
+                let picture = Pyramid::of(&shot.photo, 1.0);
+                for _ in 0..2 {
+                    let frame = points::shaken(&shapes, &shot.truth, &mut chance);
+                    let fit = Fit::at(&shapes, frame).through(&shapes, &coarse, &picture, &[], 1.0);
+                    let fit = fit.by_all(&shapes, &fine, &picture, &[]);
+                    errors.push(off(&fit.places(), &shot.truth, &material.scheme));
+                }
+            }
+            continue;
+        }
         let model = whole::learn(&material, starts, |person| fold_of(person) != fold);
         let model = Model::from_bytes(&model.to_bytes()).unwrap();
         for shot in material.neutral.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
-            let (places, score) = find(&model, &shot.photo);
+            let (places, score) = look(&model, &shot.photo);
             errors.push(off(&places, &shot.truth, &material.scheme));
             scores.push(score);
         }
         for shot in material.smiling.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
-            smiles.push(find(&model, &shot.photo).1);
+            smiles.push(look(&model, &shot.photo).1);
         }
     }
     report(&errors, &material.scheme);
+    if scores.is_empty() {
+        return;
+    }
     spread_of("neutral", &scores);
     spread_of("smiling", &smiles);
     let eyes = [material.scheme.index("3.6"), material.scheme.index("3.5")];
-    println!(
-        "eye pair within 0.1: {} of {}",
-        errors.iter().filter(|e| eyes.iter().all(|i| e[*i] < 0.1)).count(),
-        errors.len()
-    );
+    println!("eye pair within 0.1: {} of {}", errors.iter().filter(|e| eyes.iter().all(|i| e[*i] < 0.1)).count(), errors.len());
 }
 
 /// The points found in a photo, and the three scores: of the window, the rough and the close fit.
-fn find(model: &Model, photo: &Photo) -> (Vec<Point>, [f32; 3]) {
+fn look(model: &Model, photo: &Photo) -> (Vec<Point>, [f32; 3]) {
     let (small, step) = photo.at_most(WORKING_SIDE);
     let picture = Pyramid::of(&small, step);
     let found = model.candidates(&picture, &[]);
@@ -92,49 +106,28 @@ fn spread_of(name: &str, scores: &[[f32; 3]]) {
         let mut of: Vec<f32> = scores.iter().map(|s| s[k]).collect();
         of.sort_by(f32::total_cmp);
         let n = of.len();
-        println!(
-            "{name:20} {what:6}: least {:6.2}, 5 % {:6.2}, middle {:6.2}, 95 % {:6.2}, most {:6.2}",
-            of[0],
-            of[n / 20],
-            of[n / 2],
-            of[n * 19 / 20],
-            of[n - 1]
-        );
+        println!("{name:20} {what:6}: least {:6.2}, 5 % {:6.2}, middle {:6.2}, 95 % {:6.2}, most {:6.2}", of[0], of[n / 20], of[n / 2], of[n * 19 / 20], of[n - 1]);
     }
 }
 
 /// What the shipped numbers say of other sets and of pictures without faces.
 fn check(model: &Model, data: &Path, neutral: &[Shot]) {
     let beside = data.parent().unwrap();
-    for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")]
-    {
+    for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")] {
         let mut names: Vec<_> = std::fs::read_dir(beside.join(folder)).unwrap().map(|e| e.unwrap().path()).collect();
-        names.retain(|p| {
-            p.extension().is_some_and(|e| e == "jpg") && p.file_stem().unwrap().to_str().unwrap().contains(ends)
-        });
+        names.retain(|p| p.extension().is_some_and(|e| e == "jpg") && p.file_stem().unwrap().to_str().unwrap().contains(ends));
         names.sort();
         let mut scores = Vec::new();
         let mut good = Vec::new();
         for name in &names {
-            let (places, score) = find(model, &Photo::read(name).unwrap());
+            let (places, score) = look(model, &Photo::read(name).unwrap());
             scores.push(score);
             if folder == "imm240" {
                 let text = std::fs::read_to_string(name.with_extension("asf")).unwrap();
-                let rows: Vec<Vec<f64>> = text
-                    .lines()
-                    .filter(|l| l.split_whitespace().count() == 7 && !l.starts_with('#'))
-                    .map(|l| l.split_whitespace().map(|v| v.parse().unwrap()).collect())
-                    .collect();
+                let rows: Vec<Vec<f64>> = text.lines().filter(|l| l.split_whitespace().count() >= 7 && !l.starts_with('#')).map(|l| l.split_whitespace().map(|v| v.parse().unwrap_or(0.0)).collect()).collect();
                 let at = |i: usize| Point::new(rows[i][2] * 640.0, rows[i][3] * 480.0);
                 // 13 to 20 go round one eye, 21 to 28 round the other; see the pictures.
-                let middle = |from: usize| {
-                    let (mut x, mut y) = (0.0, 0.0);
-                    for i in from..from + 8 {
-                        x += at(i).x / 8.0;
-                        y += at(i).y / 8.0;
-                    }
-                    Point::new(x, y)
-                };
+                let middle = |from: usize| { let (mut x, mut y) = (0.0, 0.0); for i in from..from + 8 { x += at(i).x / 8.0; y += at(i).y / 8.0; } Point::new(x, y) };
                 let (a, b) = (middle(13), middle(21));
                 let (left, right) = if a.x < b.x { (a, b) } else { (b, a) };
                 let unit = left.distance(right);
@@ -146,36 +139,98 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         spread_of(&format!("{folder}{ends}"), &scores);
         if !good.is_empty() {
             good.sort_by(f64::total_cmp);
-            println!(
-                "   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}",
-                good[good.len() / 2],
-                good[good.len() - 1],
-                good.iter().filter(|g| **g < 0.1).count(),
-                good.len()
-            );
+            println!("   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}", good[good.len() / 2], good[good.len() - 1], good.iter().filter(|g| **g < 0.1).count(), good.len());
         }
     }
-    let mut scores = Vec::new();
-    let photo_of = |plane: &lianpu::photo::Plane| {
-        Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect())
-    };
-    for i in 0..180 {
-        scores.push(find(model, &photo_of(&others::drawn(i, 500, &mut chance::Chance(i as u64 + 777_000)))).1);
-    }
-    spread_of("drawn", &scores);
+    let photo_of = |plane: &Plane| Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect());
+    let own: Vec<&Shot> = neutral.iter().filter(|s| !s.mirrored).collect();
+    let drawn: Vec<Photo> = (0..180).map(|i| photo_of(&others::drawn(i, 500, &mut Chance(i as u64 + 777_000)))).collect();
+    said("drawn", &drawn);
     for turn in 1..4 {
-        let scores: Vec<_> = neutral
+        let turned: Vec<_> = own.iter().map(|s| photo_of(&others::quarters(&Plane::luma(&s.photo), turn))).collect();
+        said(&format!("turned by {}", 90 * turn), &turned);
+    }
+    for degrees in [0, 10, 20, 30, 40, 50, 60, 75, 90] {
+        let seen: Vec<_> = own
             .iter()
-            .filter(|s| !s.mirrored)
-            .map(|s| find(model, &photo_of(&others::quarters(&lianpu::photo::Plane::luma(&s.photo), turn))).1)
+            .step_by(2)
+            .map(|s| {
+                let eyes = Frame::of_pupils(s.truth[12], s.truth[17]);
+                others::turned(&s.photo, &eyes, f64::from(degrees).to_radians(), &[]).0
+            })
             .collect();
-        spread_of(&format!("turned by {}", 90 * turn), &scores);
+        said(&format!("looking {degrees} aside"), &seen);
+        let yaws: Vec<f64> = seen.iter().filter_map(|p| Some(find::find(p, &[]).ok()?.yaw)).collect();
+        println!("     measured {:.1}", yaws.iter().sum::<f64>() / yaws.len().max(1) as f64);
     }
-    let begun = std::time::Instant::now();
-    for shot in &neutral[..20] {
-        find(model, &shot.photo);
+    for degrees in [5, 10, 15, 20, 25, 30, 35, 45, 60] {
+        let seen: Vec<_> = own.iter().step_by(2).map(|s| {
+            let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
+            let corner = turn.apply(Point::new(-300.0, -300.0));
+            photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
+        }).collect();
+        said(&format!("tilted by {degrees}"), &seen);
     }
-    println!("{:.1} ms a photo", begun.elapsed().as_secs_f64() * 50.0);
+    let pairs: Vec<Photo> = own.windows(2).step_by(3).map(|w| beside_each_other(&w[0].photo, &w[1].photo)).collect();
+    said("two", &pairs);
+    let folder = |name: &str, keep: &dyn Fn(&str) -> bool| {
+        let mut names: Vec<_> = std::fs::read_dir(beside.join(name)).unwrap().map(|e| e.unwrap().path()).collect();
+        names.retain(|p| p.extension().is_some_and(|e| e == "jpg") && keep(p.file_stem().unwrap().to_str().unwrap()));
+        names.sort();
+        names.iter().map(|n| Photo::read(n).unwrap()).collect::<Vec<_>>()
+    };
+    said("london neutral", &folder("london", &|n| n.ends_with("neutral")));
+    said("london smiling", &folder("london", &|n| n.ends_with("smiling")));
+    for k in ["-1", "-2", "-5", "-6"] {
+        said(&format!("imm240{k}"), &folder("imm240", &|n| n.contains(k)));
+    }
+    said("imm_frontal", &folder("imm_frontal", &|_| true));
+    said("franck", &folder("franck/frames", &|n| n.parse::<usize>().unwrap() % 20 == 0));
+    let mut best = f64::INFINITY;
+    let photos: Vec<&Photo> = own[..12].iter().map(|s| &s.photo).collect();
+    for _ in 0..5 {
+        let begun = std::time::Instant::now();
+        photos.iter().for_each(|p| drop(find::find(p, &[])));
+        best = best.min(begun.elapsed().as_secs_f64() / 12.0);
+    }
+    println!("{:.1} ms a photo of 600 x 600", 1000.0 * best);
+    let large = enlarged(photos[0], 6);
+    let mut best = f64::INFINITY;
+    for _ in 0..5 {
+        let begun = std::time::Instant::now();
+        drop(find::find(&large, &[]));
+        best = best.min(begun.elapsed().as_secs_f64());
+    }
+    println!("{:.1} ms for {} x {}", 1000.0 * best, large.width(), large.height());
+}
+
+/// What is said of photos: how often a face is given, and why not.
+fn said(name: &str, photos: &[Photo]) {
+    let answers: Vec<_> = photos.iter().map(|p| find::find(p, &[])).collect();
+    let mut counts = std::collections::BTreeMap::new();
+    for answer in &answers {
+        let word = match answer {
+            Ok(found) if found.doubts.is_empty() => "given".to_owned(),
+            Ok(found) => format!("given, {:?}", found.doubts.iter().map(|d| format!("{d:?}").split('(').next().unwrap().to_owned()).collect::<Vec<_>>()),
+            Err(refusal) => format!("{refusal:?}").split('(').next().unwrap().to_owned(),
+        };
+        *counts.entry(word).or_insert(0) += 1;
+    }
+    println!("{name:20} of {}: {counts:?}", photos.len());
+}
+
+fn beside_each_other(a: &Photo, b: &Photo) -> Photo {
+    let width = a.width() + b.width();
+    let rows = (0..a.height()).flat_map(|y| {
+        let row = move |p: &Photo| (0..p.width()).map(|x| p.at(x as isize, y as isize)).collect::<Vec<_>>();
+        [row(a), row(b)].concat()
+    });
+    Photo::new(width, a.height(), rows.collect())
+}
+
+fn enlarged(photo: &Photo, by: usize) -> Photo {
+    let (w, h) = (photo.width() * by, photo.height() * by);
+    Photo::new(w, h, (0..w * h).map(|i| photo.at((i % w / by) as isize, (i / w / by) as isize)).collect())
 }
 
 fn off(found: &[Point], truth: &[Point], scheme: &Scheme) -> Vec<f64> {
@@ -194,13 +249,7 @@ fn report(errors: &[Vec<f64>], scheme: &Scheme) {
             .collect();
         means.sort_by(f64::total_cmp);
         let n = means.len();
-        println!(
-            "{name:10} mean {:5.2}  median {:5.2}  p95 {:5.2}  max {:5.2}",
-            means.iter().sum::<f64>() / n as f64,
-            means[n / 2],
-            means[n * 95 / 100],
-            means[n - 1]
-        );
+        println!("{name:10} mean {:5.2}  median {:5.2}  p95 {:5.2}  max {:5.2}", means.iter().sum::<f64>() / n as f64, means[n / 2], means[n * 95 / 100], means[n - 1]);
     };
     for group in ["brow", "eye", "nose", "mouth", "contour", "ear"] {
         line(group, &|i| scheme.groups[i] == group);

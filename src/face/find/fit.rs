@@ -26,7 +26,7 @@ const STARTS: [[f64; 4]; 5] =
         0.0, -0.06, 0.0, 0.94,
     ]];
 /// What is left of them where the face is already known roughly.
-pub const CLOSE: f64 = 0.4;
+const CLOSE: f64 = 0.4;
 
 impl Fit {
     /// The mean face at a frame.
@@ -65,6 +65,23 @@ impl Fit {
             let square = starts.iter().map(|shape| shape[i].distance_squared(*point)).sum::<f64>() / n;
             *spread = square.sqrt() as f32;
         }
+    }
+
+    /// Runs several chains of stages, each by itself, and takes the middle of what they find. They look at one place
+    /// in different ways, so where they disagree none can be trusted much.
+    #[must_use]
+    pub fn by_all(self, model: &ShapeModel, chains: &[Vec<Stage>], picture: &Pyramid, known: &[Known]) -> Self {
+        let each: Vec<Self> =
+            chains.iter().map(|c| self.clone().through(model, c, picture, known, CLOSE)).collect();
+        let Some(first) = each.first() else { return self };
+        let mut fit = Self { frame: first.frame, ..self };
+        let ends: Vec<_> = each.iter().map(|f| f.shape.clone()).collect();
+        fit.gather(&ends);
+        let within = |i: usize| each.iter().map(|f| f.spread[i] * f.spread[i]).sum::<f32>() / each.len() as f32;
+        for (i, spread) in fit.spread.iter_mut().enumerate() {
+            *spread = (*spread * *spread + within(i)).sqrt();
+        }
+        fit
     }
 
     /// The points in the photo.

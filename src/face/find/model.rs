@@ -1,7 +1,10 @@
 //! All that was learned of faces.
 
+use std::sync::OnceLock;
+
 use super::cascade::Stage;
 use super::detector::Detector;
+use super::looks::Looks;
 use super::shape::ShapeModel;
 use super::weights::{Reader, Writer};
 
@@ -14,16 +17,28 @@ pub struct Model {
     pub shapes: ShapeModel,
     /// Lays a shape roughly on a face.
     pub coarse: Vec<Stage>,
-    /// Lays it closely.
-    pub fine: Vec<Stage>,
+    /// Lay it closely: chains of stages, of which the middle is taken. All have at least one stage.
+    pub fine: Vec<Vec<Stage>>,
     /// Say whether what a shape lies on is a face, after the coarse and after the fine stages: above 0 it is.
     pub judges: [Stage; 2],
+    /// Says how far each point can be trusted.
+    pub looks: Looks,
 }
 
 /// The first bytes of learned numbers.
 const MAGIC: usize = 0x3150_4c46;
 
 impl Model {
+    /// What was learned from the London set; see `NOTES.md` beside the numbers.
+    ///
+    /// # Panics
+    /// Never: the numbers are part of the program, and a test reads them.
+    #[must_use]
+    pub fn learned() -> &'static Self {
+        static LEARNED: OnceLock<Model> = OnceLock::new();
+        LEARNED.get_or_init(|| Self::from_bytes(include_bytes!("learned.bin")).expect("the learned numbers are whole"))
+    }
+
     /// Into bytes.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
@@ -31,10 +46,18 @@ impl Model {
         out.count(MAGIC);
         self.detector.write(&mut out);
         self.shapes.write(&mut out);
-        for stages in [&self.coarse[..], &self.fine, &self.judges] {
+        let mut stages = |stages: &[Stage]| {
             out.count(stages.len());
             stages.iter().for_each(|s| s.write(&mut out));
+        };
+        stages(&self.coarse);
+        stages(&self.judges);
+        out.count(self.fine.len());
+        for chain in &self.fine {
+            out.count(chain.len());
+            chain.iter().for_each(|s| s.write(&mut out));
         }
+        self.looks.write(&mut out);
         out.0
     }
 
@@ -47,8 +70,12 @@ impl Model {
         }
         let detector = Detector::read(&mut bytes)?;
         let shapes = ShapeModel::read(&mut bytes)?;
-        let mut stages = || (0..bytes.count()?).map(|_| Stage::read(&mut bytes)).collect::<Option<Vec<_>>>();
-        let (coarse, fine, judges) = (stages()?, stages()?, stages()?);
-        Some(Self { detector, shapes, coarse, fine, judges: judges.try_into().ok()? })
+        let stages = |bytes: &mut Reader| (0..bytes.count()?).map(|_| Stage::read(bytes)).collect::<Option<Vec<_>>>();
+        let (coarse, judges) = (stages(&mut bytes)?, stages(&mut bytes)?.try_into().ok()?);
+        let fine: Vec<_> = (0..bytes.count()?).map(|_| stages(&mut bytes)).collect::<Option<_>>()?;
+        if fine.is_empty() || fine.iter().any(Vec::is_empty) {
+            return None;
+        }
+        Some(Self { detector, shapes, coarse, fine, judges, looks: Looks::read(&mut bytes)? })
     }
 }

@@ -1,8 +1,8 @@
 //! From a photo to the faces in it: windows, rough fits, judged; then close fits, judged again.
 
-use super::cascade::Chip;
+use super::cascade::{Chip, Spread, Stage};
 use super::detector::BELOW;
-use super::fit::{CLOSE, Fit, Known};
+use super::fit::{Fit, Known};
 use super::{Frame, Model, Pyramid};
 use crate::geometry::Point;
 use crate::photo::Photo;
@@ -27,6 +27,8 @@ pub struct Candidate {
     pub rough: f32,
     /// The judge's after the fine stages.
     pub close: f32,
+    /// How strange each point looks; empty after the coarse stages.
+    pub strangeness: Vec<f32>,
 }
 
 impl Model {
@@ -51,36 +53,54 @@ impl Model {
     pub fn roughly(&self, picture: &Pyramid, frame: Frame, window: f32, known: &[Known]) -> Candidate {
         let fit = Fit::at(&self.shapes, frame).through(&self.shapes, &self.coarse, picture, known, 1.0);
         let rough = self.judged(0, picture, &fit);
-        Candidate { fit, window, rough, close: f32::NEG_INFINITY }
+        Candidate { fit, window, rough, close: f32::NEG_INFINITY, strangeness: Vec::new() }
     }
 
     /// The close fit after a rough one, in the photo itself.
     #[must_use]
     pub fn closely(&self, photo: &Photo, rough: &Candidate, known: &[Known]) -> Candidate {
-        let picture = Pyramid::round_face(photo, &rough.fit.frame, self.fine[0].scale);
+        let picture = Pyramid::round_face(photo, &rough.fit.frame, self.fine[0][0].scale);
         self.closely_in(&picture, rough, known)
     }
 
     /// The close fit after a rough one.
     #[must_use]
     pub fn closely_in(&self, picture: &Pyramid, rough: &Candidate, known: &[Known]) -> Candidate {
-        let fit = rough.fit.clone().through(&self.shapes, &self.fine, picture, known, CLOSE);
+        let fit = rough.fit.clone().by_all(&self.shapes, &self.fine, picture, known);
         let close = self.judged(1, picture, &fit);
-        Candidate { fit, close, ..*rough }
+        let strangeness = self.strangeness(picture, &fit);
+        Candidate { fit, close, strangeness, window: rough.window, rough: rough.rough }
     }
 
-    /// What a judge says of a fit. It sees the face upright and of the size that the fit says.
+    /// What a judge says of a fit.
     fn judged(&self, judge: usize, picture: &Pyramid, fit: &Fit) -> f32 {
         let judge = &self.judges[judge];
-        let turn = self.shapes.frame_of(&fit.shape);
-        let shape: Vec<Point> = fit.shape.iter().map(|p| turn.undo(*p)).collect();
-        let chip = Chip::of(picture, &fit.frame.after(&turn), judge.scale).spread(judge.cell);
+        let (chip, shape) = self.upright(picture, fit, judge);
         judge.judge(&chip, &shape)
+    }
+
+    /// How strange each point of a fit looks.
+    #[must_use]
+    pub fn strangeness(&self, picture: &Pyramid, fit: &Fit) -> Vec<f32> {
+        let (chip, shape) = self.upright(picture, fit, self.first_look());
+        self.looks.strangeness(self.first_look(), &chip, &shape)
+    }
+
+    /// The stage whose descriptors the looks are of.
+    fn first_look(&self) -> &Stage {
+        &self.fine[0][0]
+    }
+
+    /// A fit's face upright and of its size, ready for a stage's descriptors.
+    fn upright(&self, picture: &Pyramid, fit: &Fit, stage: &Stage) -> (Spread, Vec<Point>) {
+        let turn = self.shapes.frame_of(&fit.shape);
+        let shape = fit.shape.iter().map(|p| turn.undo(*p)).collect();
+        (Chip::of(picture, &fit.frame.after(&turn), stage.scale).spread(stage.cell), shape)
     }
 }
 
 /// Whether two frames are of different faces.
-fn apart(a: &Frame, b: &Frame) -> bool {
+pub fn apart(a: &Frame, b: &Frame) -> bool {
     let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
     middle(a).distance(middle(b)) > 0.9 * a.scale().max(b.scale())
 }

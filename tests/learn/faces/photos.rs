@@ -33,8 +33,6 @@ const FURTHER: [(usize, usize); 21] = [
     (28, 33),
     (30, 31),
 ];
-/// The points of the 47 that are placed by rule: the London set does not have them.
-pub const BY_RULE: [&str; 4] = ["9.6", "9.7", "9.14", "9.13"];
 
 /// Which points of the London set make one of ours, and which of ours is its mirror image.
 pub struct Scheme {
@@ -82,7 +80,6 @@ pub struct Shot {
     pub photo: Photo,
     pub truth: Vec<Point>,
     pub mirrored: bool,
-    pub name: String,
 }
 
 /// The London photos of a kind, each with its mirror image after it.
@@ -103,8 +100,8 @@ pub fn london(folder: &Path, scheme: &Scheme, kind: &str) -> Vec<Shot> {
             Err(_) => Vec::new(),
         };
         let (flipped, turned) = mirror(&photo, &truth, scheme);
-        shots.push(Shot { person, photo, truth, mirrored: false, name: name.clone() });
-        shots.push(Shot { person, photo: flipped, truth: turned, mirrored: true, name });
+        shots.push(Shot { person, photo, truth, mirrored: false });
+        shots.push(Shot { person, photo: flipped, truth: turned, mirrored: true });
     }
     shots
 }

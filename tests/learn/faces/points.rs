@@ -133,6 +133,7 @@ pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel 
 }
 
 /// A sample: which picture, where its face is taken to be, and the shape so far.
+#[derive(Clone)]
 pub struct Sample {
     pub picture: usize,
     pub person: usize,
@@ -158,31 +159,35 @@ pub fn cascade(
     model: &ShapeModel,
     pictures: &[Picture],
     mut samples: Vec<Sample>,
-    plans: &[Vec<Plan>; 2],
+    plans: &(Vec<Plan>, Vec<Vec<Plan>>),
     folds: usize,
-) -> [Vec<Stage>; 2] {
+) -> (Vec<Stage>, Vec<Vec<Stage>>) {
     let mut chance = Chance(7);
     let mut people: Vec<usize> = samples.iter().map(|s| s.person).collect();
     people.sort_unstable();
     people.dedup();
     let fold: Vec<usize> =
         samples.iter().map(|s| people.iter().position(|p| *p == s.person).expect("known") % folds).collect();
-    std::array::from_fn(|part| {
-        if part > 0 {
-            for sample in &mut samples {
-                let turn = model.frame_of(&sample.shape);
-                sample.shape.iter_mut().for_each(|p| *p = turn.undo(*p));
-                sample.frame = sample.frame.after(&turn);
-                let by = Frame::new(
-                    Point::new(chance.normal() * 0.02, chance.normal() * 0.02),
-                    (chance.normal() * 0.02).exp(),
-                    chance.normal() * 0.02,
-                );
-                sample.shape.iter_mut().for_each(|p| *p = by.apply(*p));
-            }
+    let coarse = plans.0.iter().map(|plan| stage(model, pictures, &mut samples, plan, &fold)).collect();
+    for sample in &mut samples {
+        let turn = model.frame_of(&sample.shape);
+        sample.shape.iter_mut().for_each(|p| *p = turn.undo(*p));
+        sample.frame = sample.frame.after(&turn);
+    }
+    let mut chain = |plans: &Vec<Plan>| {
+        let mut samples = samples.clone();
+        for sample in &mut samples {
+            let by = Frame::new(
+                Point::new(chance.normal() * 0.02, chance.normal() * 0.02),
+                (chance.normal() * 0.02).exp(),
+                chance.normal() * 0.02,
+            );
+            sample.shape.iter_mut().for_each(|p| *p = by.apply(*p));
         }
-        plans[part].iter().map(|plan| stage(model, pictures, &mut samples, plan, &fold)).collect()
-    })
+        plans.iter().map(|plan| stage(model, pictures, &mut samples, plan, &fold)).collect()
+    };
+    let fine = plans.1.iter().map(&mut chain).collect();
+    (coarse, fine)
 }
 
 /// Learns a stage and moves the samples as it would move people whom it has not seen.

@@ -2,6 +2,8 @@
 
 use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
 use lianpu::face::find::channels::DESCRIPTOR;
+use lianpu::face::find::looks::Looks;
+use lianpu::face::find::shape::ShapeModel;
 use lianpu::face::find::weights::Matrix;
 use lianpu::face::find::{Candidate, Fit, Frame, Model, Pyramid};
 use lianpu::geometry::Point;
@@ -48,11 +50,7 @@ impl Material {
                 let mut chance = Chance(i as u64 * 77 + 5);
                 let person = shot.person;
                 if variant < 2 {
-                    return Picture {
-                        pyramid: varied(&shot.photo, variant, &mut chance),
-                        person,
-                        truth: shot.truth.clone(),
-                    };
+                    return Picture { pyramid: varied(&shot.photo, variant, &mut chance), person, truth: shot.truth.clone() };
                 }
                 let yaw = chance.between(0.06, 0.36) * if chance.share() < 0.5 { -1.0 } else { 1.0 };
                 let (photo, truth) = others::turned(&shot.photo, &frame(&shot.truth), yaw, &shot.truth);
@@ -93,54 +91,39 @@ impl Material {
                 planes.push(Plane::luma(&others::turned(&shot.photo, &frame(&shot.truth), yaw, &[]).0));
             }
             let person = shot.person;
-            planes.into_iter().map(move |plane| Picture {
-                pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN),
-                person,
-                truth: Vec::new(),
-            })
+            planes.into_iter().map(move |plane| Picture { pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN), person, truth: Vec::new() })
         });
         without.extend(torn.collect::<Vec<_>>());
         Self { scheme, neutral, smiling, faces, smiles, without }
     }
 }
 
-pub fn plans(scheme: &Scheme) -> [Vec<Plan>; 2] {
+fn env(name: &str, or: usize) -> usize {
+    std::env::var(name).map_or(or, |v| v.parse().unwrap())
+}
+
+/// The coarse stages, and the chains of fine ones.
+pub fn plans(scheme: &Scheme) -> (Vec<Plan>, Vec<Vec<Plan>>) {
     let all: Vec<usize> = (0..scheme.of.len()).collect();
     let stage = |scale, cell, kept, modes, blocks| Plan { scale, cell, kept, modes, blocks, all_sites: all.clone() };
-    [
-        vec![stage(24.0, 0.25, 24, 16, vec![]), stage(24.0, 0.17, 24, 24, vec![])],
-        vec![
-            stage(60.0, 0.13, 24, 28, vec![]),
-            stage(60.0, 0.10, 24, 32, vec![]),
-            stage(60.0, 0.08, 32, 32, points::groups(scheme)),
-        ],
-    ]
+    let groups = || points::groups(scheme);
+    let (k, g) = (env("K", 32), env("G", 40));
+    let chains = vec![
+        vec![stage(60.0, 0.13, k, 28, vec![]), stage(60.0, 0.13, g, 0, groups()), stage(60.0, 0.08, g, 0, groups())],
+        vec![stage(60.0, 0.11, k, 28, vec![]), stage(60.0, 0.10, k, 32, vec![]), stage(60.0, 0.08, g, 0, groups())],
+    ];
+    let mask = env("CHAINS", 7);
+    let chains = chains.into_iter().enumerate().filter(|(i, _)| mask >> i & 1 == 1).map(|c| c.1).collect();
+    (vec![stage(24.0, 0.25, 24, 16, vec![]), stage(24.0, 0.17, 24, 24, vec![])], chains)
 }
 
 /// Learns from the people for whom `of` says so.
 pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sync) -> Model {
     let scheme = &material.scheme;
     let begun = std::time::Instant::now();
-    let shapes = points::shapes(
-        &material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(),
-        scheme,
-        32,
-    );
-    let mut chance = Chance(99);
-    let mut samples = Vec::new();
-    for (i, picture) in material.faces.iter().enumerate().filter(|(_, p)| of(p.person)) {
-        for _ in 0..starts {
-            let frame = points::shaken(&shapes, &picture.truth, &mut chance);
-            samples.push(Sample {
-                picture: i,
-                person: picture.person,
-                frame,
-                shape: shapes.mean.clone(),
-                truth: picture.truth.clone(),
-            });
-        }
-    }
-    let [coarse, fine] = points::cascade(&shapes, &material.faces, samples, &plans(scheme), 5);
+    let (shapes, coarse, fine) = fitted(material, starts, &of);
+    let mut looks = looks(material, &shapes, &fine[0][0], &of);
+    trust(material, starts, &of, &mut looks);
     println!("  points: {:.1} s", begun.elapsed().as_secs_f64());
 
     // Where the smiling faces are: near where the same person's neutral face is, then as the cascade says.
@@ -168,21 +151,16 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
     for picture in material.without.iter().filter(|p| p.person == 0 || of(p.person)) {
         scenes.push(Scene { picture: &picture.pyramid, face: None });
     }
-    let detector = windows::learn(&scenes, 2);
+    let detector = windows::learn(&scenes, 3);
     println!("  detector: {:.1} s", begun.elapsed().as_secs_f64());
 
     let begun = std::time::Instant::now();
     let silent = |like: &Stage| {
-        let blocks = vec![Block {
-            sites: vec![],
-            moves: Moves::Modes,
-            weights: Matrix { rows: 1, columns: 0, values: vec![] },
-            bias: vec![0.0],
-        }];
+        let blocks = vec![Block { sites: vec![], moves: Moves::Modes, weights: Matrix { rows: 1, columns: 0, values: vec![] }, bias: vec![0.0] }];
         Stage { blocks, ..like.clone() }
     };
-    let judges = [silent(&coarse[1]), silent(&fine[0])];
-    let mut model = Model { detector, shapes, coarse, fine, judges };
+    let judges = [silent(&coarse[1]), silent(&fine[0][0])];
+    let mut model = Model { detector, shapes, coarse, fine, judges, looks };
     let seen: Vec<(usize, bool, [Candidate; 2])> = scenes
         .par_iter()
         .enumerate()
@@ -203,22 +181,14 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             if let Some(face) = &scene.face {
                 // Fits from the true place, tilted, and lost ones, which start far off.
                 let mut chance = Chance(i as u64 + 70_000);
-                let by = Frame::new(
-                    Point::new(chance.normal() * 0.07, chance.normal() * 0.07),
-                    (chance.normal() * 0.08).exp(),
-                    chance.normal() * 0.09,
-                );
+                let by = Frame::new(Point::new(chance.normal() * 0.07, chance.normal() * 0.07), (chance.normal() * 0.08).exp(), chance.normal() * 0.09);
                 let good = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
                 if near(&good, face) {
                     found.push((i, true, both(good)));
                 }
                 let angle = chance.between(0.0, 6.28);
                 let far = chance.between(0.5, 1.0);
-                let by = Frame::new(
-                    Point::new(angle.cos() * far, angle.sin() * far),
-                    (chance.normal() * 0.3).exp(),
-                    chance.normal() * 0.2,
-                );
+                let by = Frame::new(Point::new(angle.cos() * far, angle.sin() * far), (chance.normal() * 0.3).exp(), chance.normal() * 0.2);
                 let bad = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
                 if !near(&bad, face) && bad.fit.frame.origin.distance(face.origin) > 0.25 * face.scale() {
                     found.push((i, false, both(bad)));
@@ -229,7 +199,10 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
         .collect();
     let count = seen.iter().filter(|s| s.1).count();
     println!("  judges from {count} faces and {} others", seen.len() - count);
-    let sites: Vec<usize> = (0..scheme.of.len()).filter(|i| scheme.groups.get(*i).is_none_or(|g| g != "ear")).collect();
+    // The inner face: what lies round it differs more from photo to photo than from face to face.
+    let first = scheme.features.len();
+    let inner = |i: &usize| scheme.groups.get(*i).map_or(*i >= first + 20, |g| g != "ear" && g != "contour");
+    let sites: Vec<usize> = (0..scheme.of.len()).filter(inner).collect();
     for which in [0, 1] {
         let judge = &model.judges[which];
         let long: Vec<Vec<f32>> = seen
@@ -246,11 +219,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             })
             .collect();
         const KEPT: usize = 16;
-        let some: Vec<&[f32]> = long
-            .iter()
-            .flat_map(|l| l.chunks_exact(DESCRIPTOR))
-            .step_by(long.len() * sites.len() / 20_000 + 1)
-            .collect();
+        let some: Vec<&[f32]> = long.iter().flat_map(|l| l.chunks_exact(DESCRIPTOR)).step_by(long.len() * sites.len() / 20_000 + 1).collect();
         let (usual, basis, _) = ridge::directions(&DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]), KEPT);
         let short = |l: &Vec<f32>| {
             let mut out = vec![0.0; sites.len() * KEPT];
@@ -260,16 +229,10 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             }
             out
         };
-        let rows =
-            |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
-        let (weights, bias) = windows::logistic(&rows(true), &rows(false), 1e-3);
+        let rows = |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
+        let (weights, bias) = windows::logistic(&rows(true), &rows(false), 1e-2, None);
         let columns = weights.len();
-        let block = Block {
-            sites: sites.clone(),
-            moves: Moves::Modes,
-            weights: Matrix { rows: 1, columns, values: weights },
-            bias: vec![bias],
-        };
+        let block = Block { sites: sites.clone(), moves: Moves::Modes, weights: Matrix { rows: 1, columns, values: weights }, bias: vec![bias] };
         let judge = &mut model.judges[which];
         judge.basis = basis;
         judge.usual = usual;
@@ -277,4 +240,111 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
     }
     println!("  judges: {:.1} s", begun.elapsed().as_secs_f64());
     model
+}
+
+/// The shapes and the stages.
+pub fn fitted(material: &Material, starts: usize, of: &(impl Fn(usize) -> bool + Sync)) -> (ShapeModel, Vec<Stage>, Vec<Vec<Stage>>) {
+    let scheme = &material.scheme;
+    let shapes = points::shapes(&material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(), scheme, 32);
+    let mut chance = Chance(99);
+    let mut samples = Vec::new();
+    for (i, picture) in material.faces.iter().enumerate().filter(|(_, p)| of(p.person)) {
+        for _ in 0..starts {
+            let frame = points::shaken(&shapes, &picture.truth, &mut chance);
+            samples.push(Sample { picture: i, person: picture.person, frame, shape: shapes.mean.clone(), truth: picture.truth.clone() });
+        }
+    }
+    let (coarse, fine) = points::cascade(&shapes, &material.faces, samples, &plans(scheme), 5);
+    (shapes, coarse, fine)
+}
+
+/// What faces look like at each point where a person has set it.
+fn looks(material: &Material, shapes: &ShapeModel, stage: &Stage, of: &(impl Fn(usize) -> bool + Sync)) -> Looks {
+    let sites: Vec<usize> = (0..shapes.count()).collect();
+    let kept = stage.basis.rows;
+    let rows: Vec<Vec<f32>> = material
+        .faces
+        .par_iter()
+        .filter(|p| of(p.person))
+        .map(|p| {
+            let frame = shapes.frame_of(&p.truth);
+            let shape: Vec<Point> = p.truth.iter().map(|q| frame.undo(*q)).collect();
+            let chip = Chip::of(&p.pyramid, &frame, stage.scale).spread(stage.cell);
+            let mut short = Vec::new();
+            stage.describe(&chip, &shape, &sites, &mut short);
+            short
+        })
+        .collect();
+    let n = rows.len() as f32;
+    let mean: Vec<f32> = (0..sites.len() * kept).map(|j| rows.iter().map(|r| r[j]).sum::<f32>() / n).collect();
+    let sharp = (0..mean.len()).map(|j| {
+        let square = rows.iter().map(|r| (r[j] - mean[j]).powi(2)).sum::<f32>() / n;
+        1.0 / square.sqrt().max(1e-3)
+    });
+    let sharp = sharp.collect();
+    let matrix = |values| Matrix { rows: sites.len(), columns: kept, values };
+    Looks { usual: matrix(mean), sharpness: matrix(sharp), base: vec![0.0; material.scheme.features.len()], slopes: vec![0.0; 2] }
+}
+
+/// How the error of a point follows from the spread of the starts and from its looks, by people whom stages have not
+/// seen: four times, a quarter of the people is kept apart.
+fn trust(material: &Material, starts: usize, of: &(impl Fn(usize) -> bool + Sync), looks: &mut Looks) {
+    const PARTS: usize = 4;
+    let count = material.scheme.features.len();
+    let mut people: Vec<usize> = material.neutral.iter().map(|s| s.person).filter(|p| of(*p)).collect();
+    people.dedup();
+    let part = |person: usize| people.iter().position(|p| *p == person).map(|i| i % PARTS);
+    // Logarithms of error, spread and strangeness, of each point of each picture.
+    let mut rows: Vec<Vec<[f32; 3]>> = vec![Vec::new(); count];
+    for k in 0..PARTS {
+        let (shapes, coarse, fine) = fitted(material, starts.min(2), &|person| part(person).is_some_and(|p| p != k));
+        let own = self::looks(material, &shapes, &fine[0][0], &|person| part(person).is_some_and(|p| p != k));
+        let pictures: Vec<&Picture> = material.faces.iter().filter(|p| part(p.person) == Some(k)).collect();
+        let seen: Vec<Vec<[f32; 3]>> = pictures
+            .par_iter()
+            .enumerate()
+            .map(|(i, p)| {
+                let frame = points::shaken(&shapes, &p.truth, &mut Chance(i as u64 + 4_000));
+                let fit = Fit::at(&shapes, frame).through(&shapes, &coarse, &p.pyramid, &[], 1.0);
+                let fit = fit.by_all(&shapes, &fine, &p.pyramid, &[]);
+                let turn = shapes.frame_of(&fit.shape);
+                let shape: Vec<Point> = fit.shape.iter().map(|p| turn.undo(*p)).collect();
+                let chip = Chip::of(&p.pyramid, &fit.frame.after(&turn), fine[0][0].scale).spread(fine[0][0].cell);
+                let strange = own.strangeness(&fine[0][0], &chip, &shape);
+                (0..count)
+                    .map(|n| {
+                        let error = fit.shape[n].distance(fit.frame.undo(p.truth[n])) as f32;
+                        let [a, b] = own.features(fit.spread[n], strange[n]);
+                        [(error + 0.002).ln(), a, b]
+                    })
+                    .collect()
+            })
+            .collect();
+        for picture in seen {
+            for (row, values) in rows.iter_mut().zip(picture) {
+                row.push(values);
+            }
+        }
+    }
+    // Slopes are common to all points; each has its own base.
+    let means: Vec<[f32; 3]> =
+        rows.iter().map(|r| [0, 1, 2].map(|k| r.iter().map(|v| v[k]).sum::<f32>() / r.len() as f32)).collect();
+    let mut sums = [[0.0_f32; 3]; 3];
+    for (row, mean) in rows.iter().zip(&means) {
+        for v in row {
+            for i in 0..3 {
+                for j in 0..3 {
+                    sums[i][j] += (v[i] - mean[i]) * (v[j] - mean[j]);
+                }
+            }
+        }
+    }
+    let [_, [ya, aa, ab], [yb, _, bb]] = sums;
+    let determinant = aa * bb - ab * ab;
+    looks.slopes = vec![(ya * bb - yb * ab) / determinant, (yb * aa - ya * ab) / determinant];
+    looks.base = means.iter().map(|m| m[0] - looks.slopes[0] * m[1] - looks.slopes[1] * m[2]).collect();
+    println!(
+        "  trust: slopes {:.2} and {:.2}; correlations of the logarithms {:.2} and {:.2}",
+        looks.slopes[0], looks.slopes[1], ya / (aa * sums[0][0]).sqrt(), yb / (bb * sums[0][0]).sqrt()
+    );
 }
