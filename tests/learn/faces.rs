@@ -88,7 +88,11 @@ fn main() {
     spread_of("neutral", &scores);
     spread_of("smiling", &smiles);
     let eyes = [material.scheme.index("3.6"), material.scheme.index("3.5")];
-    println!("eye pair within 0.1: {} of {}", errors.iter().filter(|e| eyes.iter().all(|i| e[*i] < 0.1)).count(), errors.len());
+    println!(
+        "eye pair within 0.1: {} of {}",
+        errors.iter().filter(|e| eyes.iter().all(|i| e[*i] < 0.1)).count(),
+        errors.len()
+    );
 }
 
 /// The points found in a photo, and the three scores: of the window, the rough and the close fit.
@@ -106,16 +110,26 @@ fn spread_of(name: &str, scores: &[[f32; 3]]) {
         let mut of: Vec<f32> = scores.iter().map(|s| s[k]).collect();
         of.sort_by(f32::total_cmp);
         let n = of.len();
-        println!("{name:20} {what:6}: least {:6.2}, 5 % {:6.2}, middle {:6.2}, 95 % {:6.2}, most {:6.2}", of[0], of[n / 20], of[n / 2], of[n * 19 / 20], of[n - 1]);
+        println!(
+            "{name:20} {what:6}: least {:6.2}, 5 % {:6.2}, middle {:6.2}, 95 % {:6.2}, most {:6.2}",
+            of[0],
+            of[n / 20],
+            of[n / 2],
+            of[n * 19 / 20],
+            of[n - 1]
+        );
     }
 }
 
 /// What the shipped numbers say of other sets and of pictures without faces.
 fn check(model: &Model, data: &Path, neutral: &[Shot]) {
     let beside = data.parent().unwrap();
-    for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")] {
+    for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")]
+    {
         let mut names: Vec<_> = std::fs::read_dir(beside.join(folder)).unwrap().map(|e| e.unwrap().path()).collect();
-        names.retain(|p| p.extension().is_some_and(|e| e == "jpg") && p.file_stem().unwrap().to_str().unwrap().contains(ends));
+        names.retain(|p| {
+            p.extension().is_some_and(|e| e == "jpg") && p.file_stem().unwrap().to_str().unwrap().contains(ends)
+        });
         names.sort();
         let mut scores = Vec::new();
         let mut good = Vec::new();
@@ -124,10 +138,21 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
             scores.push(score);
             if folder == "imm240" {
                 let text = std::fs::read_to_string(name.with_extension("asf")).unwrap();
-                let rows: Vec<Vec<f64>> = text.lines().filter(|l| l.split_whitespace().count() >= 7 && !l.starts_with('#')).map(|l| l.split_whitespace().map(|v| v.parse().unwrap_or(0.0)).collect()).collect();
+                let rows: Vec<Vec<f64>> = text
+                    .lines()
+                    .filter(|l| l.split_whitespace().count() >= 7 && !l.starts_with('#'))
+                    .map(|l| l.split_whitespace().map(|v| v.parse().unwrap_or(0.0)).collect())
+                    .collect();
                 let at = |i: usize| Point::new(rows[i][2] * 640.0, rows[i][3] * 480.0);
                 // 13 to 20 go round one eye, 21 to 28 round the other; see the pictures.
-                let middle = |from: usize| { let (mut x, mut y) = (0.0, 0.0); for i in from..from + 8 { x += at(i).x / 8.0; y += at(i).y / 8.0; } Point::new(x, y) };
+                let middle = |from: usize| {
+                    let (mut x, mut y) = (0.0, 0.0);
+                    for i in from..from + 8 {
+                        x += at(i).x / 8.0;
+                        y += at(i).y / 8.0;
+                    }
+                    Point::new(x, y)
+                };
                 let (a, b) = (middle(13), middle(21));
                 let (left, right) = if a.x < b.x { (a, b) } else { (b, a) };
                 let unit = left.distance(right);
@@ -139,12 +164,20 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         spread_of(&format!("{folder}{ends}"), &scores);
         if !good.is_empty() {
             good.sort_by(f64::total_cmp);
-            println!("   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}", good[good.len() / 2], good[good.len() - 1], good.iter().filter(|g| **g < 0.1).count(), good.len());
+            println!(
+                "   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}",
+                good[good.len() / 2],
+                good[good.len() - 1],
+                good.iter().filter(|g| **g < 0.1).count(),
+                good.len()
+            );
         }
     }
-    let photo_of = |plane: &Plane| Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect());
+    let photo_of =
+        |plane: &Plane| Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect());
     let own: Vec<&Shot> = neutral.iter().filter(|s| !s.mirrored).collect();
-    let drawn: Vec<Photo> = (0..180).map(|i| photo_of(&others::drawn(i, 500, &mut Chance(i as u64 + 777_000)))).collect();
+    let drawn: Vec<Photo> =
+        (0..180).map(|i| photo_of(&others::drawn(i, 500, &mut Chance(i as u64 + 777_000)))).collect();
     said("drawn", &drawn);
     for turn in 1..4 {
         let turned: Vec<_> = own.iter().map(|s| photo_of(&others::quarters(&Plane::luma(&s.photo), turn))).collect();
@@ -164,11 +197,15 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         println!("     measured {:.1}", yaws.iter().sum::<f64>() / yaws.len().max(1) as f64);
     }
     for degrees in [5, 10, 15, 20, 25, 30, 35, 45, 60] {
-        let seen: Vec<_> = own.iter().step_by(2).map(|s| {
-            let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
-            let corner = turn.apply(Point::new(-300.0, -300.0));
-            photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
-        }).collect();
+        let seen: Vec<_> = own
+            .iter()
+            .step_by(2)
+            .map(|s| {
+                let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
+                let corner = turn.apply(Point::new(-300.0, -300.0));
+                photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
+            })
+            .collect();
         said(&format!("tilted by {degrees}"), &seen);
     }
     let pairs: Vec<Photo> = own.windows(2).step_by(3).map(|w| beside_each_other(&w[0].photo, &w[1].photo)).collect();
@@ -211,7 +248,10 @@ fn said(name: &str, photos: &[Photo]) {
     for answer in &answers {
         let word = match answer {
             Ok(found) if found.doubts.is_empty() => "given".to_owned(),
-            Ok(found) => format!("given, {:?}", found.doubts.iter().map(|d| format!("{d:?}").split('(').next().unwrap().to_owned()).collect::<Vec<_>>()),
+            Ok(found) => format!(
+                "given, {:?}",
+                found.doubts.iter().map(|d| format!("{d:?}").split('(').next().unwrap().to_owned()).collect::<Vec<_>>()
+            ),
             Err(refusal) => format!("{refusal:?}").split('(').next().unwrap().to_owned(),
         };
         *counts.entry(word).or_insert(0) += 1;
@@ -249,7 +289,13 @@ fn report(errors: &[Vec<f64>], scheme: &Scheme) {
             .collect();
         means.sort_by(f64::total_cmp);
         let n = means.len();
-        println!("{name:10} mean {:5.2}  median {:5.2}  p95 {:5.2}  max {:5.2}", means.iter().sum::<f64>() / n as f64, means[n / 2], means[n * 95 / 100], means[n - 1]);
+        println!(
+            "{name:10} mean {:5.2}  median {:5.2}  p95 {:5.2}  max {:5.2}",
+            means.iter().sum::<f64>() / n as f64,
+            means[n / 2],
+            means[n * 95 / 100],
+            means[n - 1]
+        );
     };
     for group in ["brow", "eye", "nose", "mouth", "contour", "ear"] {
         line(group, &|i| scheme.groups[i] == group);
