@@ -53,7 +53,7 @@ fn main() {
     let mut people: Vec<usize> = material.neutral.iter().map(|s| s.person).collect();
     people.dedup();
     let fold_of = |person: usize| people.iter().position(|p| *p == person).unwrap() % folds;
-    let (mut errors, mut scores, mut smiles) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut errors, mut scores, mut smiles, mut expected) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for fold in 0..folds {
         println!("fold {fold}");
         if has("--points") {
@@ -73,7 +73,8 @@ fn main() {
         let model = whole::learn(&material, starts, |person| fold_of(person) != fold);
         let model = Model::from_bytes(&model.to_bytes()).unwrap();
         for shot in material.neutral.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
-            let (places, score) = look(&model, &shot.photo);
+            let (places, score, sure) = look(&model, &shot.photo);
+            expected.push(sure);
             errors.push(off(&places, &shot.truth, &material.scheme));
             scores.push(score);
         }
@@ -85,49 +86,82 @@ fn main() {
     if scores.is_empty() {
         return;
     }
+    let mut pairs: Vec<(f64, f64)> = expected.concat().into_iter().zip(errors.concat()).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for fifth in pairs.chunks(pairs.len().div_ceil(5)) {
+        let mean = |f: &dyn Fn(&(f64, f64)) -> f64| 100.0 * fifth.iter().map(f).sum::<f64>() / fifth.len() as f64;
+        println!("expected {:5.2} %, is {:5.2} %", mean(&|p| p.0), mean(&|p| p.1));
+    }
     spread_of("neutral", &scores);
     spread_of("smiling", &smiles);
     let eyes = [material.scheme.index("3.6"), material.scheme.index("3.5")];
-    println!("eye pair within 0.1: {} of {}", errors.iter().filter(|e| eyes.iter().all(|i| e[*i] < 0.1)).count(), errors.len());
+    println!(
+        "eye pair within 0.1: {} of {}",
+        errors.iter().filter(|e| eyes.iter().all(|i| e[*i] < 0.1)).count(),
+        errors.len()
+    );
 }
 
-/// The points found in a photo, and the three scores: of the window, the rough and the close fit.
-fn look(model: &Model, photo: &Photo) -> (Vec<Point>, [f32; 3]) {
+/// The points found in a photo, and the scores: of the window, the rough and the close fit, and the total.
+fn look(model: &Model, photo: &Photo) -> (Vec<Point>, [f32; 4], Vec<f64>) {
     let (small, step) = photo.at_most(WORKING_SIDE);
     let picture = Pyramid::of(&small, step);
     let found = model.candidates(&picture, &[]);
-    let Some(first) = found.first() else { return (vec![Point::ORIGIN; model.shapes.count()], [-99.0; 3]) };
+    let Some(first) = found.first() else { return (vec![Point::ORIGIN; model.shapes.count()], [-99.0; 4], Vec::new()) };
     let close = model.closely(photo, first, &[]);
-    (close.fit.places(), [close.window, close.rough, close.close])
+    let expected =
+        (0..model.looks.base.len()).map(|n| model.looks.expected(n, close.fit.spread[n], close.strangeness[n]));
+    (close.fit.places(), [close.window, close.rough, close.close, close.total()], expected.collect())
 }
 
-fn spread_of(name: &str, scores: &[[f32; 3]]) {
-    for (k, what) in ["window", "rough", "close"].iter().enumerate() {
+fn spread_of(name: &str, scores: &[[f32; 4]]) {
+    for (k, what) in ["window", "rough", "close", "total"].iter().enumerate() {
         let mut of: Vec<f32> = scores.iter().map(|s| s[k]).collect();
         of.sort_by(f32::total_cmp);
         let n = of.len();
-        println!("{name:20} {what:6}: least {:6.2}, 5 % {:6.2}, middle {:6.2}, 95 % {:6.2}, most {:6.2}", of[0], of[n / 20], of[n / 2], of[n * 19 / 20], of[n - 1]);
+        println!(
+            "{name:20} {what:6}: least {:6.2}, 5 % {:6.2}, middle {:6.2}, 95 % {:6.2}, most {:6.2}",
+            of[0],
+            of[n / 20],
+            of[n / 2],
+            of[n * 19 / 20],
+            of[n - 1]
+        );
     }
 }
 
 /// What the shipped numbers say of other sets and of pictures without faces.
 fn check(model: &Model, data: &Path, neutral: &[Shot]) {
     let beside = data.parent().unwrap();
-    for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")] {
+    for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")]
+    {
         let mut names: Vec<_> = std::fs::read_dir(beside.join(folder)).unwrap().map(|e| e.unwrap().path()).collect();
-        names.retain(|p| p.extension().is_some_and(|e| e == "jpg") && p.file_stem().unwrap().to_str().unwrap().contains(ends));
+        names.retain(|p| {
+            p.extension().is_some_and(|e| e == "jpg") && p.file_stem().unwrap().to_str().unwrap().contains(ends)
+        });
         names.sort();
         let mut scores = Vec::new();
         let mut good = Vec::new();
         for name in &names {
-            let (places, score) = look(model, &Photo::read(name).unwrap());
+            let (places, score, _) = look(model, &Photo::read(name).unwrap());
             scores.push(score);
             if folder == "imm240" {
                 let text = std::fs::read_to_string(name.with_extension("asf")).unwrap();
-                let rows: Vec<Vec<f64>> = text.lines().filter(|l| l.split_whitespace().count() >= 7 && !l.starts_with('#')).map(|l| l.split_whitespace().map(|v| v.parse().unwrap_or(0.0)).collect()).collect();
+                let rows: Vec<Vec<f64>> = text
+                    .lines()
+                    .filter(|l| l.split_whitespace().count() >= 7 && !l.starts_with('#'))
+                    .map(|l| l.split_whitespace().map(|v| v.parse().unwrap_or(0.0)).collect())
+                    .collect();
                 let at = |i: usize| Point::new(rows[i][2] * 640.0, rows[i][3] * 480.0);
                 // 13 to 20 go round one eye, 21 to 28 round the other; see the pictures.
-                let middle = |from: usize| { let (mut x, mut y) = (0.0, 0.0); for i in from..from + 8 { x += at(i).x / 8.0; y += at(i).y / 8.0; } Point::new(x, y) };
+                let middle = |from: usize| {
+                    let (mut x, mut y) = (0.0, 0.0);
+                    for i in from..from + 8 {
+                        x += at(i).x / 8.0;
+                        y += at(i).y / 8.0;
+                    }
+                    Point::new(x, y)
+                };
                 let (a, b) = (middle(13), middle(21));
                 let (left, right) = if a.x < b.x { (a, b) } else { (b, a) };
                 let unit = left.distance(right);
@@ -139,12 +173,20 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         spread_of(&format!("{folder}{ends}"), &scores);
         if !good.is_empty() {
             good.sort_by(f64::total_cmp);
-            println!("   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}", good[good.len() / 2], good[good.len() - 1], good.iter().filter(|g| **g < 0.1).count(), good.len());
+            println!(
+                "   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}",
+                good[good.len() / 2],
+                good[good.len() - 1],
+                good.iter().filter(|g| **g < 0.1).count(),
+                good.len()
+            );
         }
     }
-    let photo_of = |plane: &Plane| Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect());
+    let photo_of =
+        |plane: &Plane| Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect());
     let own: Vec<&Shot> = neutral.iter().filter(|s| !s.mirrored).collect();
-    let drawn: Vec<Photo> = (0..180).map(|i| photo_of(&others::drawn(i, 500, &mut Chance(i as u64 + 777_000)))).collect();
+    let drawn: Vec<Photo> =
+        (0..180).map(|i| photo_of(&others::drawn(i, 500, &mut Chance(i as u64 + 777_000)))).collect();
     said("drawn", &drawn);
     for turn in 1..4 {
         let turned: Vec<_> = own.iter().map(|s| photo_of(&others::quarters(&Plane::luma(&s.photo), turn))).collect();
@@ -164,11 +206,15 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         println!("     measured {:.1}", yaws.iter().sum::<f64>() / yaws.len().max(1) as f64);
     }
     for degrees in [5, 10, 15, 20, 25, 30, 35, 45, 60] {
-        let seen: Vec<_> = own.iter().step_by(2).map(|s| {
-            let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
-            let corner = turn.apply(Point::new(-300.0, -300.0));
-            photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
-        }).collect();
+        let seen: Vec<_> = own
+            .iter()
+            .step_by(2)
+            .map(|s| {
+                let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
+                let corner = turn.apply(Point::new(-300.0, -300.0));
+                photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
+            })
+            .collect();
         said(&format!("tilted by {degrees}"), &seen);
     }
     let pairs: Vec<Photo> = own.windows(2).step_by(3).map(|w| beside_each_other(&w[0].photo, &w[1].photo)).collect();
@@ -206,17 +252,22 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
 
 /// What is said of photos: how often a face is given, and why not.
 fn said(name: &str, photos: &[Photo]) {
+    let totals: Vec<f32> = photos.iter().map(|p| look(Model::learned(), p).1[3]).collect();
+    let (low, high) = totals.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |b, t| (b.0.min(*t), b.1.max(*t)));
     let answers: Vec<_> = photos.iter().map(|p| find::find(p, &[])).collect();
     let mut counts = std::collections::BTreeMap::new();
     for answer in &answers {
         let word = match answer {
             Ok(found) if found.doubts.is_empty() => "given".to_owned(),
-            Ok(found) => format!("given, {:?}", found.doubts.iter().map(|d| format!("{d:?}").split('(').next().unwrap().to_owned()).collect::<Vec<_>>()),
+            Ok(found) => format!(
+                "given, {:?}",
+                found.doubts.iter().map(|d| format!("{d:?}").split('(').next().unwrap().to_owned()).collect::<Vec<_>>()
+            ),
             Err(refusal) => format!("{refusal:?}").split('(').next().unwrap().to_owned(),
         };
         *counts.entry(word).or_insert(0) += 1;
     }
-    println!("{name:20} of {}: {counts:?}", photos.len());
+    println!("{name:20} of {}, totals {low:.2} to {high:.2}: {counts:?}", photos.len());
 }
 
 fn beside_each_other(a: &Photo, b: &Photo) -> Photo {
@@ -249,7 +300,13 @@ fn report(errors: &[Vec<f64>], scheme: &Scheme) {
             .collect();
         means.sort_by(f64::total_cmp);
         let n = means.len();
-        println!("{name:10} mean {:5.2}  median {:5.2}  p95 {:5.2}  max {:5.2}", means.iter().sum::<f64>() / n as f64, means[n / 2], means[n * 95 / 100], means[n - 1]);
+        println!(
+            "{name:10} mean {:5.2}  median {:5.2}  p95 {:5.2}  max {:5.2}",
+            means.iter().sum::<f64>() / n as f64,
+            means[n / 2],
+            means[n * 95 / 100],
+            means[n - 1]
+        );
     };
     for group in ["brow", "eye", "nose", "mouth", "contour", "ear"] {
         line(group, &|i| scheme.groups[i] == group);

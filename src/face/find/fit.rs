@@ -21,10 +21,13 @@ pub struct Fit {
 
 /// Starts of a fit: moves right and down, in pupil distances, and turns in radians and sizes that are tried besides
 /// the one given.
-const STARTS: [[f64; 4]; 5] =
-    [[0.0, 0.0, 0.0, 1.0], [0.06, 0.0, 0.05, 1.0], [-0.06, 0.0, -0.05, 1.0], [0.0, 0.06, 0.0, 1.06], [
-        0.0, -0.06, 0.0, 0.94,
-    ]];
+const STARTS: [[f64; 4]; 5] = [
+    [0.0, 0.0, 0.0, 1.0],
+    [0.06, 0.0, 0.05, 1.0],
+    [-0.06, 0.0, -0.05, 1.0],
+    [0.0, 0.06, 0.0, 1.06],
+    [0.0, -0.06, 0.0, 0.94],
+];
 /// What is left of them where the face is already known roughly.
 const CLOSE: f64 = 0.4;
 
@@ -38,7 +41,14 @@ impl Fit {
     /// Runs stages, which look at one chip, from several starts round the shape; `share` is how far apart they are.
     /// Known points pull the others after every stage.
     #[must_use]
-    pub fn through(mut self, model: &ShapeModel, stages: &[Stage], picture: &Pyramid, known: &[Known], share: f64) -> Self {
+    pub fn through(
+        mut self,
+        model: &ShapeModel,
+        stages: &[Stage],
+        picture: &Pyramid,
+        known: &[Known],
+        share: f64,
+    ) -> Self {
         let Some(first) = stages.first() else { return self };
         let turn = model.frame_of(&self.shape);
         self.shape.iter_mut().for_each(|p| *p = turn.undo(*p));
@@ -61,7 +71,8 @@ impl Fit {
     fn gather(&mut self, starts: &[Vec<Point>]) {
         let n = starts.len() as f64;
         for (i, (point, spread)) in self.shape.iter_mut().zip(&mut self.spread).enumerate() {
-            *point = (starts.iter().fold(crate::geometry::Vec2::ZERO, |s, shape| s + shape[i].to_vec2()) / n).to_point();
+            *point =
+                (starts.iter().fold(crate::geometry::Vec2::ZERO, |s, shape| s + shape[i].to_vec2()) / n).to_point();
             let square = starts.iter().map(|shape| shape[i].distance_squared(*point)).sum::<f64>() / n;
             *spread = square.sqrt() as f32;
         }
@@ -71,8 +82,7 @@ impl Fit {
     /// in different ways, so where they disagree none can be trusted much.
     #[must_use]
     pub fn by_all(self, model: &ShapeModel, chains: &[Vec<Stage>], picture: &Pyramid, known: &[Known]) -> Self {
-        let each: Vec<Self> =
-            chains.iter().map(|c| self.clone().through(model, c, picture, known, CLOSE)).collect();
+        let each: Vec<Self> = chains.iter().map(|c| self.clone().through(model, c, picture, known, CLOSE)).collect();
         let Some(first) = each.first() else { return self };
         let mut fit = Self { frame: first.frame, ..self };
         let ends: Vec<_> = each.iter().map(|f| f.shape.clone()).collect();

@@ -60,6 +60,11 @@ impl Looks {
 
     /// From bytes.
     pub fn read(bytes: &mut Reader) -> Option<Self> {
-        Some(Self { usual: bytes.matrix()?, sharpness: bytes.matrix()?, base: bytes.numbers()?, slopes: bytes.numbers()? })
+        Some(Self {
+            usual: bytes.matrix()?,
+            sharpness: bytes.matrix()?,
+            base: bytes.numbers()?,
+            slopes: bytes.numbers()?,
+        })
     }
 }

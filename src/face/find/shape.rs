@@ -39,8 +39,7 @@ impl ShapeModel {
     /// How far a shape lies from another along each mode.
     #[must_use]
     pub fn along(&self, from: &[Point], to: &[Point]) -> Vec<f32> {
-        let off: Vec<f32> =
-            from.iter().zip(to).flat_map(|(f, t)| [(t.x - f.x) as f32, (t.y - f.y) as f32]).collect();
+        let off: Vec<f32> = from.iter().zip(to).flat_map(|(f, t)| [(t.x - f.x) as f32, (t.y - f.y) as f32]).collect();
         (0..self.modes.rows).map(|n| super::weights::dot(self.modes.row(n), &off)).collect()
     }
 

@@ -74,8 +74,9 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
         6 => {
             // Land under a sky.
             let far = chance.between(0.3, 0.7) * n;
-            let waves: Vec<(f64, f64, f64)> =
-                (0..6).map(|_| (chance.between(0.003, 0.08), chance.between(0.0, 6.0), chance.between(0.0, n / 25.0))).collect();
+            let waves: Vec<(f64, f64, f64)> = (0..6)
+                .map(|_| (chance.between(0.003, 0.08), chance.between(0.0, 6.0), chance.between(0.0, n / 25.0)))
+                .collect();
             for layer in 0..4 {
                 let shade = 190.0 - 45.0 * f64::from(layer);
                 for x in 0..side {
@@ -96,7 +97,8 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
                 let (light, dark) = (chance.between(150.0, 255.0) as f32, chance.between(0.0, 90.0) as f32);
                 ellipse(&mut plane, x, y, r * 1.04, r * chance.between(1.0, 1.35), dark);
                 ellipse(&mut plane, x, y, r, r * chance.between(1.0, 1.3), light);
-                let (ex, ey, er) = (r * chance.between(0.25, 0.45), r * chance.between(0.1, 0.35), r * chance.between(0.05, 0.2));
+                let (ex, ey, er) =
+                    (r * chance.between(0.25, 0.45), r * chance.between(0.1, 0.35), r * chance.between(0.05, 0.2));
                 for s in [-1.0, 1.0] {
                     ellipse(&mut plane, x + s * ex, y - ey, er, er * chance.between(0.5, 1.6), dark);
                 }
@@ -124,7 +126,9 @@ fn clouds(side: usize, fall: f64, chance: &mut Chance) -> Plane {
         let grid = Plane {
             width: size,
             height: size,
-            values: (0..size * size).map(|_| (55.0 * (4.0 / size as f64).powf(fall) * chance.normal()) as f32).collect(),
+            values: (0..size * size)
+                .map(|_| (55.0 * (4.0 / size as f64).powf(fall) * chance.normal()) as f32)
+                .collect(),
         };
         let step = (size - 1) as f64 / side as f64;
         for y in 0..side {

@@ -11,8 +11,26 @@ use crate::chance::Chance;
 
 /// Further points of the London set that steady the fit, in pairs left and right.
 const FURTHER: [(usize, usize); 21] = [
-    (126, 132), (127, 131), (128, 130), (134, 144), (135, 143), (137, 141), (138, 140), (109, 112), (110, 113),
-    (111, 114), (88, 92), (104, 108), (105, 107), (50, 56), (52, 58), (54, 60), (61, 66), (19, 26), (21, 24), (28, 33),
+    (126, 132),
+    (127, 131),
+    (128, 130),
+    (134, 144),
+    (135, 143),
+    (137, 141),
+    (138, 140),
+    (109, 112),
+    (110, 113),
+    (111, 114),
+    (88, 92),
+    (104, 108),
+    (105, 107),
+    (50, 56),
+    (52, 58),
+    (54, 60),
+    (61, 66),
+    (19, 26),
+    (21, 24),
+    (28, 33),
     (30, 31),
 ];
 
@@ -110,11 +128,7 @@ fn mirror(photo: &Photo, truth: &[Point], scheme: &Scheme) -> (Photo, Vec<Point>
     let pixels = photo.pixels().chunks_exact(width).flat_map(|row| row.iter().rev().copied()).collect();
     let last = (width - 1) as f64;
     let flip = |p: Point| Point::new(last - p.x, p.y);
-    let turned = if truth.is_empty() {
-        Vec::new()
-    } else {
-        scheme.mirror.iter().map(|m| flip(truth[*m])).collect()
-    };
+    let turned = if truth.is_empty() { Vec::new() } else { scheme.mirror.iter().map(|m| flip(truth[*m])).collect() };
     (Photo::new(width, photo.height(), pixels), turned)
 }
 

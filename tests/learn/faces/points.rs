@@ -1,18 +1,18 @@
 //! Learning the shapes of faces and the cascade that finds their points.
 
+use lianpu::face::find::Frame;
 use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
 use lianpu::face::find::channels::DESCRIPTOR;
 use lianpu::face::find::shape::ShapeModel;
 use lianpu::face::find::weights::Matrix;
-use lianpu::face::find::Frame;
 use lianpu::geometry::{Point, Vec2};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::chance::Chance;
 use crate::photos::Scheme;
-use crate::whole::Picture;
 use crate::ridge;
+use crate::whole::Picture;
 
 /// How a stage is to be.
 pub struct Plan {
@@ -64,7 +64,8 @@ pub fn groups(scheme: &Scheme) -> Vec<(Vec<usize>, Vec<usize>)> {
 /// Mean and modes of people's shapes.
 pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel {
     let names = [
-        "3.12", "3.8", "3.6", "3.11", "3.7", "3.5", "9.2", "9.1", "9.4", "9.5", "9.15", "8.4", "8.3", "8.1", "4.2", "4.1",
+        "3.12", "3.8", "3.6", "3.11", "3.7", "3.5", "9.2", "9.1", "9.4", "9.5", "9.15", "8.4", "8.3", "8.1", "4.2",
+        "4.1",
     ];
     let steady: Vec<usize> = names.iter().map(|n| scheme.index(n)).collect();
     let pick = |points: &[Point]| steady.iter().map(|i| points[*i]).collect::<Vec<_>>();
@@ -191,89 +192,95 @@ pub fn cascade(
 
 /// Learns a stage and moves the samples as it would move people whom it has not seen.
 fn stage(model: &ShapeModel, pictures: &[Picture], samples: &mut [Sample], plan: &Plan, fold: &[usize]) -> Stage {
-        let begun = std::time::Instant::now();
-        let before = error(samples);
-        // Long descriptors of every sample at every site.
-        let sites = &plan.all_sites;
-        let long: Vec<Vec<f32>> = samples
-            .par_iter()
-            .map(|s| {
-                let chip = Chip::of(&pictures[s.picture].pyramid, &s.frame, plan.scale).spread(plan.cell);
-                let mut out = vec![0.0; sites.len() * DESCRIPTOR];
-                for (site, part) in sites.iter().zip(out.chunks_exact_mut(DESCRIPTOR)) {
-                    chip.describe(s.shape[*site], part);
-                }
-                out
+    let begun = std::time::Instant::now();
+    let before = error(samples);
+    // Long descriptors of every sample at every site.
+    let sites = &plan.all_sites;
+    let long: Vec<Vec<f32>> = samples
+        .par_iter()
+        .map(|s| {
+            let chip = Chip::of(&pictures[s.picture].pyramid, &s.frame, plan.scale).spread(plan.cell);
+            let mut out = vec![0.0; sites.len() * DESCRIPTOR];
+            for (site, part) in sites.iter().zip(out.chunks_exact_mut(DESCRIPTOR)) {
+                chip.describe(s.shape[*site], part);
+            }
+            out
+        })
+        .collect();
+    let some: Vec<&[f32]> = long
+        .iter()
+        .flat_map(|l| l.chunks_exact(DESCRIPTOR))
+        .step_by(sites.len() * samples.len() / 20_000 + 1)
+        .collect();
+    let rows = DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]);
+    let (usual, basis, _) = ridge::directions(&rows, plan.kept);
+    let mut stage = Stage { scale: plan.scale, cell: plan.cell, basis, usual, blocks: Vec::new() };
+    let short: Vec<Vec<f32>> = long
+        .par_iter()
+        .map(|l| {
+            let mut out = vec![0.0; sites.len() * plan.kept];
+            for (place, part) in l.chunks_exact(DESCRIPTOR).zip(out.chunks_exact_mut(plan.kept)) {
+                let off: Vec<f32> = place.iter().zip(&stage.usual).map(|(v, m)| v - m).collect();
+                stage.basis.times(&off, part);
+            }
+            out
+        })
+        .collect();
+    drop(long);
+    let goals: Vec<Vec<Point>> = samples.iter().map(|s| s.truth.iter().map(|p| s.frame.undo(*p)).collect()).collect();
+    let whole = [(sites.clone(), Vec::new())];
+    let blocks = if plan.blocks.is_empty() { &whole[..] } else { &plan.blocks[..] };
+    let mut moved: Vec<Vec<Point>> = samples.iter().map(|s| s.shape.clone()).collect();
+    let mut penalties = Vec::new();
+    for (own, points) in blocks {
+        let columns: Vec<usize> = own
+            .iter()
+            .flat_map(|site| {
+                let at = sites.iter().position(|s| s == site).expect("a site of the plan");
+                at * plan.kept..(at + 1) * plan.kept
             })
             .collect();
-        let some: Vec<&[f32]> =
-            long.iter().flat_map(|l| l.chunks_exact(DESCRIPTOR)).step_by(sites.len() * samples.len() / 20_000 + 1).collect();
-        let rows = DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]);
-        let (usual, basis, _) = ridge::directions(&rows, plan.kept);
-        let mut stage = Stage { scale: plan.scale, cell: plan.cell, basis, usual, blocks: Vec::new() };
-        let short: Vec<Vec<f32>> = long
-            .par_iter()
-            .map(|l| {
-                let mut out = vec![0.0; sites.len() * plan.kept];
-                for (place, part) in l.chunks_exact(DESCRIPTOR).zip(out.chunks_exact_mut(plan.kept)) {
-                    let off: Vec<f32> = place.iter().zip(&stage.usual).map(|(v, m)| v - m).collect();
-                    stage.basis.times(&off, part);
-                }
-                out
-            })
-            .collect();
-        drop(long);
-        let goals: Vec<Vec<Point>> =
-            samples.iter().map(|s| s.truth.iter().map(|p| s.frame.undo(*p)).collect()).collect();
-        let whole = [(sites.clone(), Vec::new())];
-        let blocks = if plan.blocks.is_empty() { &whole[..] } else { &plan.blocks[..] };
-        let mut moved: Vec<Vec<Point>> = samples.iter().map(|s| s.shape.clone()).collect();
-        let mut penalties = Vec::new();
-        for (own, points) in blocks {
-            let columns: Vec<usize> = own
-                .iter()
-                .flat_map(|site| {
-                    let at = sites.iter().position(|s| s == site).expect("a site of the plan");
-                    at * plan.kept..(at + 1) * plan.kept
-                })
-                .collect();
-            let features = DMatrix::from_fn(samples.len(), columns.len(), |i, j| short[i][columns[j]]);
-            let (moves, targets) = if points.is_empty() {
-                let along: Vec<Vec<f32>> = samples.iter().zip(&goals).map(|(s, g)| model.along(&s.shape, g)).collect();
-                (Moves::Modes, DMatrix::from_fn(samples.len(), plan.modes, |i, j| along[i][j]))
-            } else {
-                let to = |i: usize, j: usize| {
-                    let point = points[j / 2];
-                    let d = goals[i][point] - samples[i].shape[point];
-                    (if j % 2 == 0 { d.x } else { d.y }) as f32
-                };
-                (Moves::Points(points.clone()), DMatrix::from_fn(samples.len(), 2 * points.len(), to))
+        let features = DMatrix::from_fn(samples.len(), columns.len(), |i, j| short[i][columns[j]]);
+        let (moves, targets) = if points.is_empty() {
+            let along: Vec<Vec<f32>> = samples.iter().zip(&goals).map(|(s, g)| model.along(&s.shape, g)).collect();
+            (Moves::Modes, DMatrix::from_fn(samples.len(), plan.modes, |i, j| along[i][j]))
+        } else {
+            let to = |i: usize, j: usize| {
+                let point = points[j / 2];
+                let d = goals[i][point] - samples[i].shape[point];
+                (if j % 2 == 0 { d.x } else { d.y }) as f32
             };
-            let learned = ridge::learn(&features, &targets, fold, &[0.003, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]);
-            let mut own_penalties = learned.penalties.clone();
-            own_penalties.sort_by(f32::total_cmp);
-            penalties.push(own_penalties[own_penalties.len() / 2]);
-            for (i, shape) in moved.iter_mut().enumerate() {
-                let by: Vec<f32> = learned.honest.row(i).iter().copied().collect();
-                match &moves {
-                    Moves::Modes => model.moved(shape, &by),
-                    Moves::Points(points) => {
-                        for (point, d) in points.iter().zip(by.chunks_exact(2)) {
-                            shape[*point] += Vec2::new(f64::from(d[0]), f64::from(d[1]));
-                        }
+            (Moves::Points(points.clone()), DMatrix::from_fn(samples.len(), 2 * points.len(), to))
+        };
+        let learned = ridge::learn(&features, &targets, fold, &[0.003, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]);
+        let mut own_penalties = learned.penalties.clone();
+        own_penalties.sort_by(f32::total_cmp);
+        penalties.push(own_penalties[own_penalties.len() / 2]);
+        for (i, shape) in moved.iter_mut().enumerate() {
+            let by: Vec<f32> = learned.honest.row(i).iter().copied().collect();
+            match &moves {
+                Moves::Modes => model.moved(shape, &by),
+                Moves::Points(points) => {
+                    for (point, d) in points.iter().zip(by.chunks_exact(2)) {
+                        shape[*point] += Vec2::new(f64::from(d[0]), f64::from(d[1]));
                     }
                 }
             }
-            stage.blocks.push(Block { sites: own.clone(), moves, weights: learned.weights, bias: learned.bias });
         }
-        for (sample, shape) in samples.iter_mut().zip(moved) {
-            sample.shape = shape;
-        }
-        println!(
-            "  stage {} {}: {:.2} % to {:.2} % by people unseen, penalties {penalties:?}, {:.1} s",
-            plan.scale, plan.cell, 100.0 * before, 100.0 * error(samples), begun.elapsed().as_secs_f64()
-        );
-        stage
+        stage.blocks.push(Block { sites: own.clone(), moves, weights: learned.weights, bias: learned.bias });
+    }
+    for (sample, shape) in samples.iter_mut().zip(moved) {
+        sample.shape = shape;
+    }
+    println!(
+        "  stage {} {}: {:.2} % to {:.2} % by people unseen, penalties {penalties:?}, {:.1} s",
+        plan.scale,
+        plan.cell,
+        100.0 * before,
+        100.0 * error(samples),
+        begun.elapsed().as_secs_f64()
+    );
+    stage
 }
 
 /// Mean distance from the truth, in pupil distances.

@@ -26,8 +26,7 @@ pub fn learn(features: &DMatrix<f32>, targets: &DMatrix<f32>, folds: &[usize], p
     let gram = &f * f.transpose();
     let unit = gram.trace() / n as f32;
     let count = folds.iter().max().map_or(1, |m| m + 1);
-    let parts: Vec<(Vec<usize>, Vec<usize>)> =
-        (0..count).map(|k| (0..n).partition(|i| folds[*i] != k)).collect();
+    let parts: Vec<(Vec<usize>, Vec<usize>)> = (0..count).map(|k| (0..n).partition(|i| folds[*i] != k)).collect();
     let predict = |penalty: f32| {
         let mut honest = DMatrix::zeros(n, t.ncols());
         for (inside, outside) in &parts {

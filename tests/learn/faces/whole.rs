@@ -50,7 +50,11 @@ impl Material {
                 let mut chance = Chance(i as u64 * 77 + 5);
                 let person = shot.person;
                 if variant < 2 {
-                    return Picture { pyramid: varied(&shot.photo, variant, &mut chance), person, truth: shot.truth.clone() };
+                    return Picture {
+                        pyramid: varied(&shot.photo, variant, &mut chance),
+                        person,
+                        truth: shot.truth.clone(),
+                    };
                 }
                 let yaw = chance.between(0.06, 0.36) * if chance.share() < 0.5 { -1.0 } else { 1.0 };
                 let (photo, truth) = others::turned(&shot.photo, &frame(&shot.truth), yaw, &shot.truth);
@@ -91,7 +95,11 @@ impl Material {
                 planes.push(Plane::luma(&others::turned(&shot.photo, &frame(&shot.truth), yaw, &[]).0));
             }
             let person = shot.person;
-            planes.into_iter().map(move |plane| Picture { pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN), person, truth: Vec::new() })
+            planes.into_iter().map(move |plane| Picture {
+                pyramid: Pyramid::over(plane, 1.0, Point::ORIGIN),
+                person,
+                truth: Vec::new(),
+            })
         });
         without.extend(torn.collect::<Vec<_>>());
         Self { scheme, neutral, smiling, faces, smiles, without }
@@ -156,7 +164,12 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
 
     let begun = std::time::Instant::now();
     let silent = |like: &Stage| {
-        let blocks = vec![Block { sites: vec![], moves: Moves::Modes, weights: Matrix { rows: 1, columns: 0, values: vec![] }, bias: vec![0.0] }];
+        let blocks = vec![Block {
+            sites: vec![],
+            moves: Moves::Modes,
+            weights: Matrix { rows: 1, columns: 0, values: vec![] },
+            bias: vec![0.0],
+        }];
         Stage { blocks, ..like.clone() }
     };
     let judges = [silent(&coarse[1]), silent(&fine[0][0])];
@@ -181,14 +194,22 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             if let Some(face) = &scene.face {
                 // Fits from the true place, tilted, and lost ones, which start far off.
                 let mut chance = Chance(i as u64 + 70_000);
-                let by = Frame::new(Point::new(chance.normal() * 0.07, chance.normal() * 0.07), (chance.normal() * 0.08).exp(), chance.normal() * 0.09);
+                let by = Frame::new(
+                    Point::new(chance.normal() * 0.07, chance.normal() * 0.07),
+                    (chance.normal() * 0.08).exp(),
+                    chance.normal() * 0.09,
+                );
                 let good = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
                 if near(&good, face) {
                     found.push((i, true, both(good)));
                 }
                 let angle = chance.between(0.0, 6.28);
                 let far = chance.between(0.5, 1.0);
-                let by = Frame::new(Point::new(angle.cos() * far, angle.sin() * far), (chance.normal() * 0.3).exp(), chance.normal() * 0.2);
+                let by = Frame::new(
+                    Point::new(angle.cos() * far, angle.sin() * far),
+                    (chance.normal() * 0.3).exp(),
+                    chance.normal() * 0.2,
+                );
                 let bad = model.roughly(scene.picture, face.after(&by), 0.0, &[]);
                 if !near(&bad, face) && bad.fit.frame.origin.distance(face.origin) > 0.25 * face.scale() {
                     found.push((i, false, both(bad)));
@@ -219,7 +240,11 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             })
             .collect();
         const KEPT: usize = 16;
-        let some: Vec<&[f32]> = long.iter().flat_map(|l| l.chunks_exact(DESCRIPTOR)).step_by(long.len() * sites.len() / 20_000 + 1).collect();
+        let some: Vec<&[f32]> = long
+            .iter()
+            .flat_map(|l| l.chunks_exact(DESCRIPTOR))
+            .step_by(long.len() * sites.len() / 20_000 + 1)
+            .collect();
         let (usual, basis, _) = ridge::directions(&DMatrix::from_fn(some.len(), DESCRIPTOR, |i, j| some[i][j]), KEPT);
         let short = |l: &Vec<f32>| {
             let mut out = vec![0.0; sites.len() * KEPT];
@@ -229,10 +254,16 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             }
             out
         };
-        let rows = |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
+        let rows =
+            |face: bool| seen.iter().zip(&long).filter(|(s, _)| s.1 == face).map(|(_, l)| short(l)).collect::<Vec<_>>();
         let (weights, bias) = windows::logistic(&rows(true), &rows(false), 1e-2, None);
         let columns = weights.len();
-        let block = Block { sites: sites.clone(), moves: Moves::Modes, weights: Matrix { rows: 1, columns, values: weights }, bias: vec![bias] };
+        let block = Block {
+            sites: sites.clone(),
+            moves: Moves::Modes,
+            weights: Matrix { rows: 1, columns, values: weights },
+            bias: vec![bias],
+        };
         let judge = &mut model.judges[which];
         judge.basis = basis;
         judge.usual = usual;
@@ -243,15 +274,29 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
 }
 
 /// The shapes and the stages.
-pub fn fitted(material: &Material, starts: usize, of: &(impl Fn(usize) -> bool + Sync)) -> (ShapeModel, Vec<Stage>, Vec<Vec<Stage>>) {
+pub fn fitted(
+    material: &Material,
+    starts: usize,
+    of: &(impl Fn(usize) -> bool + Sync),
+) -> (ShapeModel, Vec<Stage>, Vec<Vec<Stage>>) {
     let scheme = &material.scheme;
-    let shapes = points::shapes(&material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(), scheme, 32);
+    let shapes = points::shapes(
+        &material.faces.iter().filter(|p| of(p.person)).map(|p| &p.truth[..]).collect::<Vec<_>>(),
+        scheme,
+        32,
+    );
     let mut chance = Chance(99);
     let mut samples = Vec::new();
     for (i, picture) in material.faces.iter().enumerate().filter(|(_, p)| of(p.person)) {
         for _ in 0..starts {
             let frame = points::shaken(&shapes, &picture.truth, &mut chance);
-            samples.push(Sample { picture: i, person: picture.person, frame, shape: shapes.mean.clone(), truth: picture.truth.clone() });
+            samples.push(Sample {
+                picture: i,
+                person: picture.person,
+                frame,
+                shape: shapes.mean.clone(),
+                truth: picture.truth.clone(),
+            });
         }
     }
     let (coarse, fine) = points::cascade(&shapes, &material.faces, samples, &plans(scheme), 5);
@@ -283,7 +328,12 @@ fn looks(material: &Material, shapes: &ShapeModel, stage: &Stage, of: &(impl Fn(
     });
     let sharp = sharp.collect();
     let matrix = |values| Matrix { rows: sites.len(), columns: kept, values };
-    Looks { usual: matrix(mean), sharpness: matrix(sharp), base: vec![0.0; material.scheme.features.len()], slopes: vec![0.0; 2] }
+    Looks {
+        usual: matrix(mean),
+        sharpness: matrix(sharp),
+        base: vec![0.0; material.scheme.features.len()],
+        slopes: vec![0.0; 2],
+    }
 }
 
 /// How the error of a point follows from the spread of the starts and from its looks, by people whom stages have not
@@ -345,6 +395,9 @@ fn trust(material: &Material, starts: usize, of: &(impl Fn(usize) -> bool + Sync
     looks.base = means.iter().map(|m| m[0] - looks.slopes[0] * m[1] - looks.slopes[1] * m[2]).collect();
     println!(
         "  trust: slopes {:.2} and {:.2}; correlations of the logarithms {:.2} and {:.2}",
-        looks.slopes[0], looks.slopes[1], ya / (aa * sums[0][0]).sqrt(), yb / (bb * sums[0][0]).sqrt()
+        looks.slopes[0],
+        looks.slopes[1],
+        ya / (aa * sums[0][0]).sqrt(),
+        yb / (bb * sums[0][0]).sqrt()
     );
 }

@@ -55,7 +55,13 @@ pub fn logistic(yes: &[Vec<f32>], no: &[Vec<f32>], penalty: f32, from: Option<(&
     let d = yes[0].len() + 1;
     let n = yes.len() + no.len();
     let x = DMatrix::from_fn(n, d, |i, j| {
-        if j + 1 == d { 1.0 } else if i < yes.len() { yes[i][j] } else { no[i - yes.len()][j] }
+        if j + 1 == d {
+            1.0
+        } else if i < yes.len() {
+            yes[i][j]
+        } else {
+            no[i - yes.len()][j]
+        }
     });
     let weight = |i: usize| if i < yes.len() { 0.5 / yes.len() as f32 } else { 0.5 / no.len() as f32 };
     let mut w = DVector::<f32>::zeros(d);
