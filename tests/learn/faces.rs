@@ -53,7 +53,7 @@ fn main() {
     let mut people: Vec<usize> = material.neutral.iter().map(|s| s.person).collect();
     people.dedup();
     let fold_of = |person: usize| people.iter().position(|p| *p == person).unwrap() % folds;
-    let (mut errors, mut scores, mut smiles) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut errors, mut scores, mut smiles, mut expected) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for fold in 0..folds {
         println!("fold {fold}");
         if has("--points") {
@@ -73,7 +73,8 @@ fn main() {
         let model = whole::learn(&material, starts, |person| fold_of(person) != fold);
         let model = Model::from_bytes(&model.to_bytes()).unwrap();
         for shot in material.neutral.iter().filter(|s| fold_of(s.person) == fold && !s.mirrored) {
-            let (places, score) = look(&model, &shot.photo);
+            let (places, score, sure) = look(&model, &shot.photo);
+            expected.push(sure);
             errors.push(off(&places, &shot.truth, &material.scheme));
             scores.push(score);
         }
@@ -85,6 +86,12 @@ fn main() {
     if scores.is_empty() {
         return;
     }
+    let mut pairs: Vec<(f64, f64)> = expected.concat().into_iter().zip(errors.concat()).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for fifth in pairs.chunks(pairs.len().div_ceil(5)) {
+        let mean = |f: &dyn Fn(&(f64, f64)) -> f64| 100.0 * fifth.iter().map(f).sum::<f64>() / fifth.len() as f64;
+        println!("expected {:5.2} %, is {:5.2} %", mean(&|p| p.0), mean(&|p| p.1));
+    }
     spread_of("neutral", &scores);
     spread_of("smiling", &smiles);
     let eyes = [material.scheme.index("3.6"), material.scheme.index("3.5")];
@@ -95,18 +102,20 @@ fn main() {
     );
 }
 
-/// The points found in a photo, and the three scores: of the window, the rough and the close fit.
-fn look(model: &Model, photo: &Photo) -> (Vec<Point>, [f32; 3]) {
+/// The points found in a photo, and the scores: of the window, the rough and the close fit, and the total.
+fn look(model: &Model, photo: &Photo) -> (Vec<Point>, [f32; 4], Vec<f64>) {
     let (small, step) = photo.at_most(WORKING_SIDE);
     let picture = Pyramid::of(&small, step);
     let found = model.candidates(&picture, &[]);
-    let Some(first) = found.first() else { return (vec![Point::ORIGIN; model.shapes.count()], [-99.0; 3]) };
+    let Some(first) = found.first() else { return (vec![Point::ORIGIN; model.shapes.count()], [-99.0; 4], Vec::new()) };
     let close = model.closely(photo, first, &[]);
-    (close.fit.places(), [close.window, close.rough, close.close])
+    let expected =
+        (0..model.looks.base.len()).map(|n| model.looks.expected(n, close.fit.spread[n], close.strangeness[n]));
+    (close.fit.places(), [close.window, close.rough, close.close, close.total()], expected.collect())
 }
 
-fn spread_of(name: &str, scores: &[[f32; 3]]) {
-    for (k, what) in ["window", "rough", "close"].iter().enumerate() {
+fn spread_of(name: &str, scores: &[[f32; 4]]) {
+    for (k, what) in ["window", "rough", "close", "total"].iter().enumerate() {
         let mut of: Vec<f32> = scores.iter().map(|s| s[k]).collect();
         of.sort_by(f32::total_cmp);
         let n = of.len();
@@ -134,7 +143,7 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         let mut scores = Vec::new();
         let mut good = Vec::new();
         for name in &names {
-            let (places, score) = look(model, &Photo::read(name).unwrap());
+            let (places, score, _) = look(model, &Photo::read(name).unwrap());
             scores.push(score);
             if folder == "imm240" {
                 let text = std::fs::read_to_string(name.with_extension("asf")).unwrap();
@@ -243,6 +252,8 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
 
 /// What is said of photos: how often a face is given, and why not.
 fn said(name: &str, photos: &[Photo]) {
+    let totals: Vec<f32> = photos.iter().map(|p| look(Model::learned(), p).1[3]).collect();
+    let (low, high) = totals.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |b, t| (b.0.min(*t), b.1.max(*t)));
     let answers: Vec<_> = photos.iter().map(|p| find::find(p, &[])).collect();
     let mut counts = std::collections::BTreeMap::new();
     for answer in &answers {
@@ -256,7 +267,7 @@ fn said(name: &str, photos: &[Photo]) {
         };
         *counts.entry(word).or_insert(0) += 1;
     }
-    println!("{name:20} of {}: {counts:?}", photos.len());
+    println!("{name:20} of {}, totals {low:.2} to {high:.2}: {counts:?}", photos.len());
 }
 
 fn beside_each_other(a: &Photo, b: &Photo) -> Photo {

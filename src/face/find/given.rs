@@ -61,8 +61,9 @@ const BY_HAND: f64 = 0.002;
 const POINTED_OUT: [f64; 4] = [0.03, 0.03, 0.05, 0.06];
 
 impl Candidate {
-    /// The detector's and the judges' sums together.
-    fn total(&self) -> f32 {
+    /// The detector's and the judges' sums together: about 4 for faces, below 0 for anything else.
+    #[must_use]
+    pub fn total(&self) -> f32 {
         0.4 * self.window.min(8.0) + 0.2 * self.rough + 0.4 * self.close
     }
 }

@@ -97,7 +97,7 @@ impl Reader<'_> {
     /// A matrix of one byte a number.
     pub fn matrix(&mut self) -> Option<Matrix> {
         let (rows, columns) = (self.count()?, self.count()?);
-        let mut values = Vec::with_capacity(rows * columns);
+        let mut values = Vec::new();
         for _ in 0..rows {
             let scale = f32::from_le_bytes(self.take()?);
             let (row, rest) = self.0.split_at_checked(columns)?;
