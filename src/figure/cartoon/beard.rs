@@ -51,6 +51,10 @@ impl Growth {
     /// The beard on a face in a pose.
     pub(super) fn draw(&self, pen: &Pen, points: &Points, units: &Units, outline: &Outline) -> Vec<Item> {
         let place = Place::of(points, units);
+        // Ink has no shade as faint as a shaved lip's.
+        if pen.ink_only && self.faint {
+            return Vec::new();
+        }
         if pen.ink_only {
             return vec![self.stubble(pen, &place, outline)];
         }
