@@ -7,7 +7,7 @@ use super::head::Outline;
 use super::{Pen, at};
 use crate::drawing::Item;
 use crate::face::{Beard, FeaturePoint as P, Points, Units};
-use crate::geometry::{BezPath, PathEl, Point, Vec2, brush_in_steps, spline};
+use crate::geometry::{BezPath, PathEl, Point, Vec2, brush_in_steps, lerp, spline};
 
 /// Which hair grows on a face, and how thick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +51,10 @@ impl Growth {
     /// The beard on a face in a pose.
     pub(super) fn draw(&self, pen: &Pen, points: &Points, units: &Units, outline: &Outline) -> Vec<Item> {
         let place = Place::of(points, units);
+        // Ink has no shade as faint as a shaved lip's.
+        if pen.ink_only && self.faint {
+            return Vec::new();
+        }
         if pen.ink_only {
             return vec![self.stubble(pen, &place, outline)];
         }
@@ -109,10 +113,13 @@ impl Growth {
     }
 }
 
+/// How much of the mouth's spreading and rounding the hair round it follows.
+const FOLLOWS: f64 = 0.4;
+
 /// Where mouth, nose and chin are.
 struct Place {
     x: f64,
-    /// Half the mouth's width.
+    /// Half the width of the mouth that the beard follows.
     half: f64,
     corner: f64,
     peaks: f64,
@@ -130,7 +137,7 @@ impl Place {
         let (left, right) = (points[P::P8_4], points[P::P8_3]);
         Self {
             x: left.x.midpoint(right.x),
-            half: (right.x - left.x) / 2.0,
+            half: lerp(units.mouth_width, right.x - left.x, FOLLOWS) / 2.0,
             corner: left.y.midpoint(right.y),
             peaks: points[P::P8_9].y,
             lower: points[P::P8_2].y,

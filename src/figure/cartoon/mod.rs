@@ -210,7 +210,7 @@ impl Cartoon {
             view = view.union(hair.inflate(ROOM, ROOM)).intersect(Rect::new(-400.0, -500.0, 400.0, 310.0));
             around = around.union(hair);
         }
-        view.y1 = view.y1.max(points[P::P2_1].y + 160.0);
+        view.y1 = view.y1.max(points[P::P2_1].y + 130.0);
         around = around.intersect(view);
         let face_view = Rect::new(around.x0 - 6.0, around.y0 - 6.0, around.x1 + 6.0, points[P::P2_1].y + 45.0);
         let body = body::Body::new(points, face.measures.neck, jaw, view);
@@ -225,6 +225,7 @@ impl Cartoon {
         let glasses = style.glasses.or(face.measures.glasses > 0.5);
         let mut skin = skin::skin(&pen, &outline);
         skin.extend(skin::blush(&pen, points, &outline));
+        skin.extend(skin::lights(&pen, points, points[P::P11_1].y.max(top)));
         skin.extend(skin::sockets(&pen, points));
         if !hair.is_some() {
             skin.extend(hair::scalp(&pen, points, &head, &outline, kind != HairKind::Bald));

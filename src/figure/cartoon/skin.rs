@@ -3,7 +3,7 @@
 
 use super::head::Outline;
 use super::{Pen, at};
-use crate::drawing::Item;
+use crate::drawing::{Item, Oklch};
 use crate::face::{FeaturePoint as P, Points, Units};
 use crate::geometry::{Point, Vec2, brush, brush_in_steps, spline};
 
@@ -50,6 +50,24 @@ fn cheeks(pen: &Pen, points: &Points, outline: &Outline, up: f64, cover: f64) ->
         Item::glow("blush", middle, radii, pen.palette.blush.faded(cover))
     };
     vec![spot(P::P3_6, P::P9_2), spot(P::P3_5, P::P9_1)]
+}
+
+/// Where skin shines in the light from the upper left: forehead and cheekbone. On dark skin this is what models the
+/// face, since its shades can hardly be seen.
+pub(super) fn lights(pen: &Pen, points: &Points, hairline: f64) -> Vec<Item> {
+    if pen.ink_only {
+        return Vec::new();
+    }
+    let cover = if Oklch::from(pen.palette.skin).l < 0.6 { 0.34 } else { 0.22 };
+    let light = pen.palette.light.faded(cover);
+    let (eye, brow) = (points[P::P3_6], points[P::P4_4].y);
+    let high = (brow - hairline).max(12.0);
+    let forehead = at(0.45 * eye.x, brow - 0.48 * high);
+    let cheek = at(1.06 * eye.x, 0.50 * points[P::P9_2].y);
+    vec![
+        Item::glow("forehead-light", forehead, Vec2::new(46.0, 0.40 * high), light),
+        Item::glow("cheek-light", cheek, Vec2::new(22.0, 10.0), light),
+    ]
 }
 
 /// Soft shade between brow, inner corner and lid. It keeps to the neutral lid: shade that moved with a blink would

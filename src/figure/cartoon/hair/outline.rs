@@ -13,7 +13,7 @@ const CORNER: f64 = 0.30;
 /// Handles elsewhere lie along the tangent.
 const SMOOTH: f64 = 0.34;
 /// Steps of the outline as a line.
-const STEP: f64 = 3.0;
+const STEP: f64 = 3.6;
 /// How often corners are cut (thesis sec. 4.2.3).
 const DEPTH: u32 = 2;
 
