@@ -153,6 +153,9 @@ fn is_lock(regions: &Regions, piece: &Mask) -> bool {
     piece.area() > LARGE || rough > ROUGH || edges.get(edges.len() / 2).is_some_and(|e| *e > EDGE)
 }
 
+/// Notches beside an ear under hair that are narrower than twice this, in face units, are filled.
+const NOTCH: f64 = 14.0;
+
 /// How much of each ear is seen; an ear under hair is hair.
 fn with_hidden_ears(mut mask: Mask, regions: &Regions, shape: &Shape) -> ([f64; 2], Mask) {
     let p = &shape.points;
@@ -163,6 +166,10 @@ fn with_hidden_ears(mut mask: Mask, regions: &Regions, shape: &Shape) -> ([f64; 
         let seen = skin as f64 / whole.count().max(1) as f64;
         if seen < 0.45 {
             mask = mask.or(&Mask::of(|c| whole.0[c] && regions.back()[c] < 0.5));
+            // What shows of it between hair and cheek would be a notch in the hair.
+            let even = mask.closed(NOTCH);
+            let near = |p: Point| p.distance(lobe) < 3.0 * NOTCH && p.y < lobe.y + NOTCH;
+            mask = mask.or(&Mask::of(|c| even.0[c] && near(centre(c)) && regions.back()[c] < 0.5));
         }
         seen
     });

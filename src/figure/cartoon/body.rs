@@ -115,9 +115,18 @@ impl Body {
         cloth.curve_to(at(0.5 * n, low), at(n, s + 26.0), at(1.30 * n, s - 4.0));
         let (left, right) = (arm(-1.0), arm(1.0));
         cloth.curve_to(right.p1, right.p2, right.p3);
-        cloth.line_to(at(wide, bottom));
-        cloth.line_to(at(-wide, bottom));
-        cloth.line_to(left.p3);
+        // A picture wider than the view shows where the shoulders round off and the arms hang.
+        let hang = |sign: f64| {
+            let p = |out: f64, y: f64| at(sign * (wide + out), s + y);
+            CubicBez::new(p(0.0, 60.0), p(26.0, 80.0), p(44.0, 112.0), p(50.0, 170.0))
+        };
+        let (left_arm, right_arm) = (hang(-1.0), hang(1.0));
+        cloth.curve_to(right_arm.p1, right_arm.p2, right_arm.p3);
+        let low_end = bottom.max(s + 170.0);
+        cloth.line_to(at(wide + 50.0, low_end));
+        cloth.line_to(at(-wide - 50.0, low_end));
+        cloth.line_to(left_arm.p3);
+        cloth.curve_to(left_arm.p2, left_arm.p1, left_arm.p0);
         cloth.curve_to(left.p2, left.p1, left.p0);
         cloth.close_path();
         let collar = [(-1.30, -4.0), (-1.02, 17.0), (-0.5, 31.0), (0.0, 36.0), (0.5, 31.0), (1.02, 17.0), (1.30, -4.0)]

@@ -106,7 +106,8 @@ impl Hair {
             inside.splice(0..0, mass::shades(pen, &rays));
         }
         let mut items = Vec::new();
-        if self.kind != HairKind::Curly && strands > 0.0 {
+        // Along a smooth outline they look like a line drawn twice.
+        if self.kind == HairKind::Wavy && strands > 0.0 {
             items.push(strand::loose(pen, &rays, strands));
         }
         items.push(Item::area("hair-front", whole.clone(), pen.palette.hair));
