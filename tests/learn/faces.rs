@@ -37,6 +37,15 @@ fn main() {
     let neutral = photos::london(&data, &scheme, "neutral");
     let smiling = photos::london(&data, &scheme, "smiling");
     let out = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/face/find/learned.bin");
+    if has("--print") {
+        for name in &arguments[2..] {
+            match find::find(&Photo::read(Path::new(name)).unwrap(), &[]) {
+                Ok(f) => println!("{name} {:.2} {:.2} {:.2} {}", f.score, f.opening, f.residual, f.points.iter().map(|p| format!("{:.1},{:.1},{:.2}", p.at.x, p.at.y, p.confidence)).collect::<Vec<_>>().join(" ")),
+                Err(e) => println!("{name} {e}"),
+            }
+        }
+        return;
+    }
     if has("--check") {
         let model = Model::from_bytes(&std::fs::read(&out).unwrap()).unwrap();
         check(&model, &data, &neutral);

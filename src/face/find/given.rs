@@ -2,7 +2,7 @@
 
 use super::fit::{Fit, Known};
 use super::refusal::{Doubt, Refusal};
-use super::search::{Candidate, WORKING_SIDE, apart};
+use super::search::{Candidate, SMALLEST, WORKING_SIDE, apart};
 use super::{Frame, Model, Pyramid};
 use crate::face::{FeaturePoint as P, How, Placed};
 use crate::geometry::Point;
@@ -45,7 +45,7 @@ const BY_RULE: [P; 4] = [P::P9_6, P::P9_7, P::P9_14, P::P9_13];
 
 /// A candidate's total must be above this. Cross-validated, faces have 3.5 and more, other photos of other cameras 2
 /// and more; all that was drawn or torn is below −0.5.
-const ENOUGH: f32 = 1.0;
+const ENOUGH: f32 = 0.6;
 /// Below this, the face is doubted.
 const PLENTY: f32 = 2.0;
 /// The smallest pupil distance, in pixels of the working copy.
@@ -88,13 +88,13 @@ pub fn find(photo: &Photo, hands: &[(P, Point)]) -> Result<Found, Refusal> {
         return Ok(found);
     }
     let mut rough = model.candidates(&picture, &known).into_iter();
-    let first = rough.next().ok_or(Refusal::NoFace)?;
+    let Some(first) = rough.next() else { return Err(model.nothing(&picture)) };
     let close = model.closely(photo, &first, &known);
     let found = model.given(&close, hands);
     let pupils = close.fit.frame.scale();
     if close.total() < ENOUGH {
         let something = close.window > 0.5 && close.total() > -0.5;
-        return Err(if something { unclear(&found) } else { Refusal::NoFace });
+        return Err(if something { unclear(&found) } else { model.nothing(&picture) });
     }
     if pupils / step < SMALL {
         return Err(Refusal::TooSmall(pupils / step));
@@ -154,6 +154,14 @@ pub fn find_from(photo: &Photo, anchors: &Anchors) -> Found {
 }
 
 impl Model {
+    /// Why nothing was found: perhaps there is a face, but too small a one.
+    fn nothing(&self, picture: &Pyramid) -> Refusal {
+        // Of windows that small only those are believed that are as sure as a face's.
+        let tiny = self.detector.scan(picture, 0.55 * SMALLEST * picture.step(), 2.5);
+        let size = tiny.first().map(|hit| hit.frame.scale() / picture.step());
+        size.filter(|s| *s < SMALL).map_or(Refusal::NoFace, Refusal::TooSmall)
+    }
+
     /// Which of the learned points a feature point is; none for those that are placed by rule and for hair.
     fn learned_index(&self, point: P) -> Option<usize> {
         let before = BY_RULE.iter().filter(|r| r.index() < point.index()).count();
