@@ -30,8 +30,9 @@ pub struct Args {
     /// Any photo, without a project: PNG, JPEG or WebP. Nothing is kept.
     #[arg(long, value_name = "FILE", conflicts_with = "project")]
     photo: Option<PathBuf>,
-    /// Where the face is, for a photo in which it is not found: left eye, right eye, mouth, chin, in pixels.
-    #[arg(long, value_name = "X,Y", num_args = 4, allow_negative_numbers = true)]
+    /// Where the face is, for a photo in which it is not found: the eye at the image's left, the
+    /// one at its right, mouth, chin, in pixels.
+    #[arg(long, value_name = "X,Y", num_args = 4, allow_hyphen_values = true)]
     at: Vec<String>,
     /// Print points, colours and warnings as JSON.
     #[arg(long)]
@@ -52,15 +53,23 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 .help("give a file that ends in .png")
                 .of_the_call());
         }
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !folder.is_dir() {
+            return Err(Fault::new("there is no such folder")
+                .at(folder)
+                .help("make it, or give another")
+                .of_the_call());
+        }
     }
     let anchors = anchors(&args.at)?;
     let (photo, created, said) = match (&args.photo, &args.project) {
         (Some(path), _) => {
+            spare(path, &[&args.overlay, &args.sheet])?;
             let (photo, sha256) = Photo::read_with_sum(path)?;
-            let created = create(&photo, &sha256, None, anchors.as_ref()).map_err(|r| Fault::from(r).at(path))?;
+            let created = create(&photo, &sha256, None, anchors.as_ref()).map_err(|f| f.at(path))?;
             (photo, created, None)
         }
-        (None, Some(project)) => of_project(project, args.face.as_deref(), anchors.as_ref())?,
+        (None, Some(project)) => of_project(project, args, anchors.as_ref())?,
         // The parser asks for one of them.
         (None, None) => return Ok(()),
     };
@@ -86,7 +95,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
 }
 
 /// The four places of `--at`.
-fn anchors(texts: &[String]) -> Result<Option<Anchors>> {
+pub(super) fn anchors(texts: &[String]) -> Result<Option<Anchors>> {
     let point = |text: &String| {
         let (x, y) = text.split_once(',')?;
         let number = |t: &str| t.trim().parse::<f64>().ok().filter(|v| v.is_finite());
@@ -103,18 +112,15 @@ fn anchors(texts: &[String]) -> Result<Option<Anchors>> {
 }
 
 /// Finds the face of a project anew and writes its face.toml; what was done, in words.
-fn of_project(
-    project: &Path,
-    name: Option<&str>,
-    anchors: Option<&Anchors>,
-) -> Result<(Photo, Created, Option<String>)> {
+fn of_project(project: &Path, args: &Args, anchors: Option<&Anchors>) -> Result<(Photo, Created, Option<String>)> {
     let mut lesson = Lesson::open(project)?;
-    let number = lesson.face_named(name).map_err(Fault::of_the_call)?;
+    let number = lesson.face_named(args.face.as_deref()).map_err(Fault::of_the_call)?;
     let face = &lesson.faces[number];
     let path = face.photo.clone().ok_or_else(|| no_photo(face))?;
+    spare(&path, &[&args.overlay, &args.sheet])?;
     let (photo, sha256) = Photo::read_with_sum(&path)?;
-    let created = create(&photo, &sha256, face.face.as_ref(), anchors).map_err(|r| Fault::from(r).at(&path))?;
-    let done = if lesson.write_face(number, created.face.clone())? { "wrote" } else { "nothing has changed in" };
+    let created = create(&photo, &sha256, face.face.as_ref(), anchors).map_err(|f| f.at(&path))?;
+    let done = if lesson.write_face(number, &created.face)? { "wrote" } else { "nothing has changed in" };
     let file = lesson.faces[number].path();
     let said = format!("{done} {}: {}", file.display(), summary(&created.face));
     Ok((photo, created, Some(said)))
@@ -123,7 +129,7 @@ fn of_project(
 fn no_photo(face: &LessonFace) -> Fault {
     Fault::new(format!("the face `{}` has no photo", face.entry.name))
         .at(face.folder.join("neutral.png"))
-        .help("put a photo there, or give one with --photo FILE")
+        .help("put a photo there")
 }
 
 /// How many points are of which kind, in words.
@@ -157,6 +163,20 @@ fn as_json(created: &Created) -> serde_json::Value {
         "hair": face.hair.kind,
         "warnings": created.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
+}
+
+/// Refuses to draw over the photo that is drawn from.
+fn spare(photo: &Path, outputs: &[&Option<PathBuf>]) -> Result<()> {
+    let whole = photo.canonicalize().ok();
+    for output in outputs.iter().filter_map(|o| o.as_ref()) {
+        if whole.is_some() && output.canonicalize().ok() == whole {
+            return Err(Fault::new("the picture would be written over the photo")
+                .at(output)
+                .help("give another name")
+                .of_the_call());
+        }
+    }
+    Ok(())
 }
 
 /// Photo, stages, points, the cartoon neutral, with its mouth shapes, emotions and styles.

@@ -8,7 +8,7 @@ use crate::disk::Result;
 use crate::project::{Made, NewLesson, create};
 use crate::script::System;
 
-/// Make a lesson from a recording and its script, from times, or from ratios.
+/// Make a lesson from a photo, a recording and its script, from times, or from ratios.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The folder to make; its last part names the lesson and its clip.
@@ -32,6 +32,10 @@ pub struct Args {
     /// A photo of whoever speaks, from the front, mouth closed: it becomes a cartoon.
     #[arg(long, value_name = "PHOTO")]
     neutral: Option<PathBuf>,
+    /// Where the face is in a photo in which it is not found: the eye at the image's left,
+    /// the one at its right, mouth, chin, in pixels.
+    #[arg(long, value_name = "X,Y", num_args = 4, allow_hyphen_values = true, requires = "neutral")]
+    at: Vec<String>,
     /// The figure: cartoon (which needs a photo), line or cat.
     #[arg(long, value_name = "NAME")]
     figure: Option<String>,
@@ -50,6 +54,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         timing: args.timing.clone(),
         ratios: args.ratios.clone(),
         neutral: args.neutral.clone(),
+        anchors: super::face::anchors(&args.at)?,
         figure: args.figure.clone(),
     };
     let Made { lesson, warnings } = create(&args.project, &new)?;
@@ -76,6 +81,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         say(format!("note on the photo: {warning}"))?;
     }
     let quoted = if args.project.to_string_lossy().contains(' ') { format!("'{root}'") } else { root.to_string() };
+    if lesson.clips.is_empty() {
+        say("next, to see and correct the face in the studio:".into())?;
+        return say(format!("  lianpu {quoted}"));
+    }
     say("next, to see and correct it in the studio, and to write its frames:".into())?;
     say(format!("  lianpu {quoted}"))?;
     say(format!("  lianpu export {quoted} --to png"))

@@ -139,7 +139,7 @@ impl Face {
         let lost = missing(&mut FeaturePoint::fixed());
         if !lost.is_empty() {
             return Err(Fault::new(format!("[points] lacks {}", lost.join(", ")))
-                .help("run `lianpu face PROJECT` to find the points again; what a hand has set is kept"));
+                .help("put them back, or move face.toml aside and run `lianpu face PROJECT`"));
         }
         let hairless = missing(&mut (0..FeaturePoint::HAIR).map(FeaturePoint::hair));
         if !hairless.is_empty() && hairless.len() != FeaturePoint::HAIR {
@@ -176,7 +176,7 @@ impl Face {
         let photo = table.photo;
         if photo.sha256.len() != 64 || !photo.sha256.bytes().all(|b| b.is_ascii_hexdigit()) {
             return Err(at_line(Fault::new("`sha256` is not 64 hexadecimal digits"), "sha256")
-                .help("run `lianpu face PROJECT` to have it written"));
+                .help("move face.toml aside and run `lianpu face PROJECT`"));
         }
         Ok(Self {
             points,

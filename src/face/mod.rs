@@ -6,6 +6,7 @@
 mod create;
 mod file;
 pub mod find;
+mod lips;
 mod measure;
 mod point;
 pub mod rig;
@@ -172,6 +173,29 @@ impl IndexMut<FeaturePoint> for Points {
 }
 
 impl Face {
+    /// What is odd about where its points lie; none where they lie as those of a face in its photo do.
+    #[must_use]
+    pub fn oddity(&self) -> Option<String> {
+        use FeaturePoint as P;
+        let at = |p: P| self.points[p.index()].at;
+        let across = at(P::P3_5) - at(P::P3_6);
+        if across.x < 8.0 || across.y.abs() > across.x {
+            return Some("its eyes do not lie side by side".into());
+        }
+        let below = |p: P| across.cross(at(p) - at(P::P3_6)) / across.hypot();
+        let down = [P::P9_15, P::P8_1, P::P8_2, P::P2_1].map(below);
+        if !(down[0] > 0.0 && down.is_sorted()) {
+            return Some("its nose, lips and chin do not lie below each other".into());
+        }
+        let [width, height] = self.photo.size.map(f64::from);
+        let outside = |p: &Placed| p.at.x < -0.5 || p.at.y < -0.5 || p.at.x > width - 0.5 || p.at.y > height - 0.5;
+        match self.points.iter().filter(|p| outside(p)).count() {
+            0 => None,
+            1 => Some("one of its points lies outside the photo".into()),
+            n => Some(format!("{n} of its points lie outside the photo")),
+        }
+    }
+
     /// The places of the 47 points that every face has, in pixels of the photo.
     #[must_use]
     pub fn places(&self) -> Points {

@@ -48,10 +48,14 @@ impl AuthorLayer {
     /// # Errors
     /// When it is not SVG, or has more shapes than a frame can bear.
     pub fn parse(text: &str, place: LayerPlace) -> Result<Self> {
-        let mut options = usvg::Options::default();
         // Pictures are not looked at: neither files nor data inside the text.
-        options.image_href_resolver =
-            usvg::ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
+        let options = usvg::Options {
+            image_href_resolver: usvg::ImageHrefResolver {
+                resolve_data: Box::new(|_, _, _| None),
+                resolve_string: Box::new(|_, _| None),
+            },
+            ..usvg::Options::default()
+        };
         let tree = usvg::Tree::from_str(text, &options)
             .map_err(|e| Fault::new(format!("this is not an SVG drawing: {e}")).help("save it as plain SVG"))?;
         let mut reader = Reader::default();
@@ -90,7 +94,9 @@ impl AuthorLayer {
     fn over(&self, view: Rect) -> Item {
         Item::Group(Group {
             name: String::new(),
-            transform: fit(self.view, view),
+            // As an exported frame shows the figure: whole and centred on the sheet. So a drawing made over a frame of
+            // any shape lies where it was drawn.
+            transform: fit(view, self.view).inverse(),
             clip: Some(self.view.to_path(0.1)),
             items: self.items.clone(),
         })
@@ -128,11 +134,15 @@ impl Reader {
         if group.mask().is_some() {
             self.left_out.push("masks");
         }
-        let clip = group.clip_path().and_then(|clip| {
+        let clip = group.clip_path().map(|clip| {
             let mut outline = BezPath::new();
             outline_of(clip.root(), affine(clip.transform()), &mut outline);
-            (!outline.elements().is_empty()).then_some(outline)
+            // What is cut by nothing is not seen.
+            outline
         });
+        if group.blend_mode() != usvg::BlendMode::Normal {
+            self.left_out.push("blending");
+        }
         let mut items = self.group(group);
         let opacity = f64::from(group.opacity().get());
         if opacity < 0.999 {
@@ -148,6 +158,9 @@ impl Reader {
         let mut fill = || {
             let fill = path.fill()?;
             let colour = self.paint(fill.paint(), fill.opacity().get())?;
+            if fill.rule() == usvg::FillRule::EvenOdd {
+                self.left_out.push("even-odd fills: drawn without their holes");
+            }
             Some(Item::area("", outline.clone(), colour))
         };
         let filled = fill();

@@ -73,6 +73,9 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
             let by_hand = if set > 0 { format!(", {set} set by hand") } else { String::new() };
             let drawn = if is_cartoon { "drawn as a cartoon" } else { "with points, drawn as a line figure" };
             found.push(Finding::Fine(format!("face {name}: {drawn}{by_hand}")));
+            if let Some(what) = points.oddity() {
+                found.push(odd(format!("{what}: `f` in the studio shows the points, `lianpu face` finds them again")));
+            }
             match &face.photo {
                 None => found.push(odd("its photo is not there, so its points cannot be found again".into())),
                 Some(path) => match read_bytes(path, MAX_PHOTO_BYTES).map(|bytes| sha256(&bytes)) {

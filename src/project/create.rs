@@ -1,4 +1,4 @@
-//! A new lesson from a recording and its script, or from a ratio record. Everything is checked before anything is
+//! A new lesson from a photo, a recording and its script, times, or a ratio record. Everything is checked before anything is
 //! made, and the folder appears whole or not at all.
 
 use std::path::{Path, PathBuf};
@@ -8,8 +8,9 @@ use super::face::FACE_FILE;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::Record;
-use crate::face::{Created, Warning};
+use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
+use crate::geometry::Point;
 use crate::photo::{Photo, sha256, to_clean_png};
 use crate::script::System;
 use crate::timing::{self, Format};
@@ -34,6 +35,8 @@ pub struct NewLesson {
     pub ratios: Option<PathBuf>,
     /// The neutral photo of whoever speaks.
     pub neutral: Option<PathBuf>,
+    /// Where its face is, in pixels of the photo, where it is not found.
+    pub anchors: Option<Anchors>,
     /// The figure.
     pub figure: Option<String>,
 }
@@ -73,6 +76,11 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
             .help("give --script FILE with what is said")
             .of_the_call());
     }
+    if new.script.is_some() && !has_clip {
+        return Err(Fault::new("a script needs its recording, or its times")
+            .help("give --speech FILE, or leave --script out for now")
+            .of_the_call());
+    }
     let parent = match root.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -85,7 +93,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     }
     check_inputs(new)?;
     // Before a folder is made: a photo in which no face is found leaves nothing behind.
-    let face = new.neutral.as_deref().map(NewFace::of).transpose()?;
+    let face = new.neutral.as_deref().map(|path| NewFace::of(path, new.anchors)).transpose()?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")
@@ -156,11 +164,18 @@ struct NewFace {
 }
 
 impl NewFace {
-    fn of(path: &Path) -> Result<Self> {
+    fn of(path: &Path, anchors: Option<Anchors>) -> Result<Self> {
         let photo = Photo::read(path)?;
-        let (kept, _) = photo.at_most(KEPT_SIDE);
+        let (kept, factor) = photo.at_most(KEPT_SIDE);
+        let small = |p: Point| Point::new(p.x / factor, p.y / factor);
+        let anchors = anchors.map(|a| Anchors {
+            left_eye: small(a.left_eye),
+            right_eye: small(a.right_eye),
+            mouth: small(a.mouth),
+            chin: small(a.chin),
+        });
         let png = to_clean_png(&kept)?;
-        let created = crate::face::create(&kept, &sha256(&png), None, None).map_err(|r| Fault::from(r).at(path))?;
+        let created = crate::face::create(&kept, &sha256(&png), None, anchors.as_ref()).map_err(|f| f.at(path))?;
         Ok(Self { png, created })
     }
 
@@ -216,6 +231,7 @@ fn of_inputs(fault: &Fault, new: &NewLesson) -> Fault {
         "script" => &new.script,
         "timing" => &new.timing,
         "ratios" => &new.ratios,
+        "neutral" | "face" => &new.neutral,
         _ => &None,
     };
     let mut named = Fault::new(fault.what()).help(fault.next_step());

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::manifest::FaceEntry;
 use super::save::checksum;
-use crate::disk::{Fault, Result, inside, read_text};
+use crate::disk::{Result, inside, read_text};
 use crate::face::{Face, create};
 use crate::photo::Photo;
 
@@ -28,6 +28,8 @@ pub struct LessonFace {
     pub photo: Option<PathBuf>,
     /// The checksum of `face.toml` as it was last read or written.
     pub(super) seen: Option<u32>,
+    /// The face as the file has it.
+    pub(super) written: Option<Face>,
 }
 
 impl LessonFace {
@@ -49,7 +51,7 @@ impl LessonFace {
             true => (Some(Face::parse(&read_text(&path)?).map_err(|f| f.at(&path))?), checksum(&path)),
             false => (None, None),
         };
-        Ok(Self { entry: entry.clone(), folder, face, photo, seen })
+        Ok(Self { entry: entry.clone(), folder, written: face.clone(), face, photo, seen })
     }
 
     /// Whether the face has points to draw a cartoon from.
@@ -74,7 +76,7 @@ impl LessonFace {
             (None, None) => Ok(None),
             (None, Some(path)) => {
                 let (photo, sha256) = Photo::read_with_sum(path)?;
-                let created = create(&photo, &sha256, None, None).map_err(|r| Fault::from(r).at(path))?;
+                let created = create(&photo, &sha256, None, None).map_err(|f| f.at(path))?;
                 Ok(Some(Cow::Owned(created.face)))
             }
         }

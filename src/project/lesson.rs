@@ -15,6 +15,9 @@ use crate::timeline::Timeline;
 /// The folder of what the program keeps for itself.
 pub(super) const OWN_FOLDER: &str = ".lianpu";
 
+/// Where changes are kept that do not fit the files any more.
+const LOST: &str = "journal.lost";
+
 /// A lesson that is open.
 #[derive(Debug)]
 pub struct Lesson {
@@ -30,6 +33,8 @@ pub struct Lesson {
     pub read_only: Option<String>,
     /// How many unsaved changes of an earlier run were brought back.
     pub recovered: usize,
+    /// How many did not fit the files any more; they are kept in `.lianpu/journal.lost`.
+    pub lost: usize,
     pub(super) history: History,
     pub(super) journal: Option<Journal>,
     pub(super) lock: Option<Lock>,
@@ -51,6 +56,7 @@ impl Lesson {
             faces,
             read_only: Some("it was opened to be read".into()),
             recovered: 0,
+            lost: 0,
             history: History::default(),
             journal: None,
             lock: None,
@@ -75,14 +81,20 @@ impl Lesson {
         }
         if lesson.read_only.is_none() {
             let path = own.join("journal");
-            for change in Journal::left_in(&path)? {
+            let left = Journal::left_in(&path)?;
+            for change in &left {
                 // A change that does not fit was made to files that have since been changed, or is in them already:
                 // a save that was cut off after writing leaves such a journal.
-                if lesson.apply(&change).is_err() {
+                if lesson.apply(change).is_err() {
                     break;
                 }
-                lesson.history.push(change);
+                lesson.history.push(change.clone());
                 lesson.recovered += 1;
+            }
+            lesson.lost = left.len() - lesson.recovered;
+            if lesson.lost > 0 {
+                // Nobody can tell which of the two it is, so nothing is thrown away.
+                std::fs::copy(&path, own.join(LOST)).map_err(|e| Fault::io("cannot keep the journal", &path, e))?;
             }
             lesson.journal = Some(Journal::start(&path, lesson.history.done())?);
         }

@@ -36,7 +36,7 @@ impl Lesson {
     ///
     /// # Errors
     /// When the lesson is read-only, has changes that are not in its files, or the file cannot be written.
-    pub fn write_face(&mut self, number: usize, face: Face) -> Result<bool> {
+    pub fn write_face(&mut self, number: usize, face: &Face) -> Result<bool> {
         if let Some(why) = &self.read_only {
             return Err(super::lesson::refusal("changed", why));
         }
@@ -45,9 +45,17 @@ impl Lesson {
                 .at(&self.root)
                 .help("open it in the studio and save or discard them"));
         }
-        let kept = &mut self.faces[number];
-        kept.face = Some(face);
-        Ok(kept.save()?.is_some())
+        // As it will be read: what could not be read back is not written.
+        let face = Face::parse(&face.to_toml())?;
+        let Some(kept) = self.faces.get_mut(number) else {
+            return Err(Fault::new(format!("there is no face number {number}")).help("look at lianpu.toml"));
+        };
+        let before = kept.face.replace(face);
+        let written = kept.save();
+        if written.is_err() {
+            kept.face = before;
+        }
+        Ok(written?.is_some())
     }
 
     /// Drops every change that is not in the files: the journal forgets them, so that no later run brings them back,
@@ -64,12 +72,24 @@ impl Lesson {
 }
 
 impl LessonFace {
-    /// Writes `face.toml` where it differs. A face that lost its points keeps the file: it is the author's.
+    /// Writes `face.toml` where the face differs from the file's, and removes it where its points were taken back.
     fn save(&mut self) -> Result<Option<PathBuf>> {
-        match &self.face {
-            Some(face) => write_changed(self.path(), &face.to_toml(), &mut self.seen),
-            None => Ok(None),
+        if self.face == self.written {
+            return Ok(None);
         }
+        let path = self.path();
+        let done = match &self.face {
+            Some(face) => write_changed(path, &face.to_toml(), &mut self.seen)?,
+            // Only what this program wrote, or has read as it is.
+            None if self.seen.is_some() && checksum(&path) == self.seen => {
+                std::fs::remove_file(&path).map_err(|e| Fault::io("cannot remove it", &path, e))?;
+                self.seen = None;
+                Some(path)
+            }
+            None => None,
+        };
+        self.written.clone_from(&self.face);
+        Ok(done)
     }
 }
 

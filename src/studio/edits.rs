@@ -56,6 +56,10 @@ fn rebuild(state: &mut State) {
 
 /// Undoes or makes again.
 pub(super) fn retrace(state: &mut State, action: Action) {
+    if state.face.is_some() && state.busy.is_some() {
+        state.refuse("the face is still being looked for");
+        return;
+    }
     let Some(lesson) = state.lesson_mut() else { return };
     let (done, word) = match action {
         Action::Redo => (lesson.redo(), "again"),

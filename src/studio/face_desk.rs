@@ -56,8 +56,12 @@ pub struct Placing {
 
 impl Placing {
     /// What is to be given, in order.
-    pub const WANTED: [&'static str; 4] =
-        ["the middle of the left eye", "the middle of the right eye", "the middle of the mouth", "the tip of the chin"];
+    pub const WANTED: [&'static str; 4] = [
+        "the eye at the image's left",
+        "the eye at the image's right",
+        "the middle of the mouth",
+        "the tip of the chin",
+    ];
 
     /// What is to be given next.
     #[must_use]

@@ -31,8 +31,12 @@ pub(super) fn open(state: &mut State) -> Option<Job> {
         state.refuse(format!("this face has no photo: put one there as {folder}"));
         return None;
     }
-    let figure = lesson.cartoon_of(face).ok();
-    let mut desk = FaceDesk::new(number, face.entry.mouths, figure);
+    let drawn = face.face.is_some().then(|| lesson.cartoon_of(face)).transpose();
+    let mut desk = FaceDesk::new(number, face.entry.mouths, None);
+    match drawn {
+        Ok(figure) => desk.figure = figure,
+        Err(fault) => desk.remarks.push(format!("the cartoon cannot be drawn: {}", fault.what())),
+    }
     let path = face.photo.clone();
     let eyes = face.face.as_ref().map(|f| [FeaturePoint::P3_6, FeaturePoint::P3_5].map(|p| f.points[p.index()].at));
     if face.face.is_none() {
@@ -96,6 +100,10 @@ fn look(state: &mut State, action: Action) {
 
 /// Whether the lesson can be changed; says why not.
 fn may_change(state: &mut State) -> bool {
+    if state.busy.is_some() {
+        state.refuse("the face is still being looked for");
+        return false;
+    }
     let why = state.lesson().and_then(|l| l.read_only.clone());
     if let Some(why) = &why {
         state.refuse(format!("the lesson cannot be changed: {why}"));
@@ -126,7 +134,7 @@ pub(super) fn show(state: &mut State) {
     if let Some(desk) = &mut state.face
         && let Some(face) = lesson.faces.get(desk.face)
     {
-        desk.figure = lesson.cartoon_of(face).ok();
+        desk.figure = face.face.is_some().then(|| lesson.cartoon_of(face).ok()).flatten();
         if face.face.as_ref().is_some_and(|f| f.placed(desk.point).is_none()) {
             desk.point = FeaturePoint::P3_6;
         }
@@ -229,7 +237,12 @@ pub(super) fn found(state: &mut State, number: usize, face: &Face) {
     else {
         return;
     };
-    let edit = Edit::Face { face: number, before, after: Some(face.to_toml()) };
+    let after = face.to_toml();
+    if before.as_ref() == Some(&after) {
+        state.say("found the same points again");
+        return;
+    }
+    let edit = Edit::Face { face: number, before, after: Some(after) };
     if change(state, Change::one("find the face's points", edit))
         && let Some(desk) = &mut state.face
     {

@@ -187,6 +187,14 @@ impl Studio {
                     let many = if lesson.recovered == 1 { "change" } else { "changes" };
                     self.state.say(format!("brought back {} unsaved {many} from last time", lesson.recovered));
                 }
+                if let Ok(lesson) = lesson.as_ref()
+                    && lesson.lost > 0
+                {
+                    self.state.refuse(format!(
+                        "{} unsaved changes fit the files no more: brought back {}, all are kept in .lianpu/journal.lost",
+                        lesson.lost, lesson.recovered
+                    ));
+                }
                 self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0, left: BTreeMap::new() });
             }
             Report::Outlined { root, clip, sound, loudest } => {

@@ -75,7 +75,7 @@ fn stages(photo: &Photo, eyes: Option<[Point; 2]>) -> Vec<(String, Drawing)> {
 
 fn find_face(path: &Path, kept: Option<&Face>, anchors: Option<&Anchors>) -> Result<Created> {
     let (photo, sha256) = Photo::read_with_sum(path)?;
-    crate::face::create(&photo, &sha256, kept, anchors).map_err(|r| Fault::from(r).at(path))
+    crate::face::create(&photo, &sha256, kept, anchors).map_err(|f| f.at(path))
 }
 
 fn broken_photo() -> Fault {

@@ -40,7 +40,17 @@ fn main() {
     if has("--print") {
         for name in &arguments[2..] {
             match find::find(&Photo::read(Path::new(name)).unwrap(), &[]) {
-                Ok(f) => println!("{name} {:.2} {:.2} {:.2} {}", f.score, f.opening, f.residual, f.points.iter().map(|p| format!("{:.1},{:.1},{:.2}", p.at.x, p.at.y, p.confidence)).collect::<Vec<_>>().join(" ")),
+                Ok(f) => println!(
+                    "{name} {:.2} {:.2} {:.2} {}",
+                    f.score,
+                    f.opening,
+                    f.residual,
+                    f.points
+                        .iter()
+                        .map(|p| format!("{:.1},{:.1},{:.2}", p.at.x, p.at.y, p.confidence))
+                        .collect::<Vec<_>>()
+                        .join(" ")
+                ),
                 Err(e) => println!("{name} {e}"),
             }
         }

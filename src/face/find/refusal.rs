@@ -44,14 +44,14 @@ impl Refusal {
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoFace => {
-                "take a photo from the front, upright, the whole head in it; or point out the eyes, the mouth and the chin"
+                "take a photo from the front, upright, the whole head in it; or say where eyes, mouth and chin are: --at, or `o` in the studio"
             }
             Self::TwoFaces => "cut the photo so that only one of them is in it",
             Self::TurnedAway(_) => "take a photo in which the person looks straight into the camera",
             Self::Tilted(_) => "turn the photo so that the eyes are level",
             Self::TooSmall(_) => "cut the photo closer round the head, or take it from nearer",
             Self::Unclear => {
-                "take a photo with even light and nothing before the face; or point out the eyes, the mouth and the chin"
+                "take a photo with even light and nothing before the face; or say where eyes, mouth and chin are: --at, or `o` in the studio"
             }
         }
     }

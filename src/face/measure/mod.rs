@@ -1,5 +1,5 @@
 //! What a face has besides its 47 fixed points, measured from the photo alone: colours, hair, jaw, beard, ears, neck,
-//! glasses, and whether the photo is fit for it. Nothing here is learned from other photos.
+//! glasses, and whether the photo is fit for it. But for the usual jaw (`shape`), nothing here is learned from other photos.
 //!
 //! The photo is warped once into the face frame ([`frame`]), its cells are told apart into background, skin, hair and
 //! clothes ([`segment`]), and the measures read from both. It places no point that it is given.

@@ -5,7 +5,7 @@
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 
 use super::Chosen;
-use crate::disk::{Fault, Result, from_toml, nearest};
+use crate::disk::{Fault, Result, clean_line, from_toml, nearest};
 use crate::drawing::Colour;
 use crate::face::HairKind;
 use crate::face::rig::Proportions;
@@ -214,7 +214,7 @@ impl Style {
         }
         let colours = Chosen { shirt: file.colours.shirt.or(file.shirt), ..file.colours };
         Ok(Self {
-            title: file.title.unwrap_or_else(|| "a style".to_owned()),
+            title: file.title.map_or_else(|| "a style".to_owned(), |t| clean_line(&t, 200)),
             ink_only: file.ink_only,
             ink: file.ink,
             ground: file.background,

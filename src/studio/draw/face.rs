@@ -66,9 +66,10 @@ fn words(buffer: &mut Buffer, area: Rect, state: &State, desk: &FaceDesk) {
     };
     if let Some(placing) = &desk.placing {
         say(&format!("Put the cross on {} ", placing.wanted()), BOLD);
-        say(&format!("({} of 4): arrows move it, Enter sets it, o gives up", placing.given.len() + 1), Style::new());
-        let at = format!("x {:.0}  y {:.0}", placing.cross.x, placing.cross.y);
-        put_short(buffer, area.x, area.y + 1, area.width, &at, DIM);
+        say(&format!("({} of 4)", placing.given.len() + 1), Style::new());
+        let at =
+            format!("arrows move it, Enter sets it, o gives up   x {:.0}  y {:.0}", placing.cross.x, placing.cross.y);
+        put_short(buffer, area.x, area.y + 1, area.width, &at, Style::new());
         return;
     }
     match lesson_face.face.as_ref().and_then(|f| Some((f, *f.placed(desk.point)?))) {

@@ -111,7 +111,7 @@ pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel 
     orthonormal(&mut modes, 0);
     let rows = DMatrix::from_fn(aligned.len(), size, |i, j| {
         let d = aligned[i][j / 2] - mean[j / 2];
-        (if j % 2 == 0 { d.x } else { d.y }) as f32
+        (if j.is_multiple_of(2) { d.x } else { d.y }) as f32
     });
     let mut rest = rows;
     for mode in &modes {
@@ -248,7 +248,7 @@ fn stage(model: &ShapeModel, pictures: &[Picture], samples: &mut [Sample], plan:
             let to = |i: usize, j: usize| {
                 let point = points[j / 2];
                 let d = goals[i][point] - samples[i].shape[point];
-                (if j % 2 == 0 { d.x } else { d.y }) as f32
+                (if j.is_multiple_of(2) { d.x } else { d.y }) as f32
             };
             (Moves::Points(points.clone()), DMatrix::from_fn(samples.len(), 2 * points.len(), to))
         };

@@ -203,6 +203,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
                 if near(&good, face) {
                     found.push((i, true, both(good)));
                 }
+                #[allow(clippy::approx_constant, reason = "the shipped numbers were learned so")]
                 let angle = chance.between(0.0, 6.28);
                 let far = chance.between(0.5, 1.0);
                 let by = Frame::new(
