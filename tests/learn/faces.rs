@@ -37,6 +37,17 @@ fn main() {
     let neutral = photos::london(&data, &scheme, "neutral");
     let smiling = photos::london(&data, &scheme, "smiling");
     let out = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/face/find/learned.bin");
+    if has("--walls") {
+        let mut sheet = image::RgbImage::new(600 * 6, 600 * 3);
+        for (i, shot) in neutral.iter().step_by(8).take(18).enumerate() {
+            let plane = photos::elsewhere(&shot.photo, &mut Chance(i as u64));
+            for (x, y, p) in (0..360_000).map(|k| (k % 600, k / 600, plane.values[k])) {
+                sheet.put_pixel((i % 6 * 600 + x) as u32, (i / 6 * 600 + y) as u32, image::Rgb([p as u8; 3]));
+            }
+        }
+        sheet.save("/tmp/find/walls.png").unwrap();
+        return;
+    }
     if has("--print") {
         for name in &arguments[2..] {
             match find::find(&Photo::read(Path::new(name)).unwrap(), &[]) {
@@ -58,7 +69,7 @@ fn main() {
     }
     if has("--check") {
         let model = Model::from_bytes(&std::fs::read(&out).unwrap()).unwrap();
-        check(&model, &data, &neutral);
+        check(&model, &data, &neutral, &scheme);
         return;
     }
     let material = Material::new(scheme, neutral, smiling);
@@ -150,7 +161,7 @@ fn spread_of(name: &str, scores: &[[f32; 4]]) {
 }
 
 /// What the shipped numbers say of other sets and of pictures without faces.
-fn check(model: &Model, data: &Path, neutral: &[Shot]) {
+fn check(model: &Model, data: &Path, neutral: &[Shot], scheme: &Scheme) {
     let beside = data.parent().unwrap();
     for (folder, ends) in [("imm240", "-1"), ("imm240", "-2"), ("imm240", "-5"), ("imm240", "-6"), ("imm_frontal", "")]
     {
@@ -161,6 +172,7 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
         names.sort();
         let mut scores = Vec::new();
         let mut good = Vec::new();
+        let mut jaw: Vec<f64> = Vec::new();
         for name in &names {
             let (places, score, _) = look(model, &Photo::read(name).unwrap());
             scores.push(score);
@@ -187,10 +199,21 @@ fn check(model: &Model, data: &Path, neutral: &[Shot]) {
                 // Eyes are the 13th and the 18th of the learned points.
                 let worst = places[12].distance(left).max(places[17].distance(right)) / unit;
                 good.push(worst);
+                // 0 to 12 go along the jaw from ear to ear.
+                for name in ["2.1", "2.14", "2.13"] {
+                    let p = places[scheme.index(name)];
+                    let near = (0..12).map(|i| {
+                        let (a, b) = (at(i), at(i + 1));
+                        let t = ((p - a).dot(b - a) / (b - a).hypot2()).clamp(0.0, 1.0);
+                        p.distance(a + (b - a) * t)
+                    });
+                    jaw.push(near.fold(f64::INFINITY, f64::min) / unit);
+                }
             }
         }
         spread_of(&format!("{folder}{ends}"), &scores);
         if !good.is_empty() {
+            println!("   jaw and chin off the jaw's line: {:.3}", jaw.iter().sum::<f64>() / jaw.len() as f64);
             good.sort_by(f64::total_cmp);
             println!(
                 "   eyes off: middle {:.3}, most {:.3}; within 0.1: {} of {}",

@@ -36,7 +36,8 @@ pub fn groups(scheme: &Scheme) -> Vec<(Vec<usize>, Vec<usize>)> {
         (0, ["3.12", "3.8", "3.2", "3.4", "3.6"], ["4.6", "4.4a", "4.4", "4.2"]),
         (1, ["3.7", "3.11", "3.1", "3.3", "3.5"], ["4.5", "4.3a", "4.3", "4.1"]),
     ] {
-        let (mut eyes, brows) = (of(&eye), of(&brow));
+        let (mut eyes, mut brows) = (of(&eye), of(&brow));
+        brows.extend(one(&[21, 22, 23, 24, 25, 26], side));
         eyes.extend(one(&[17, 18, 19, 20], side));
         let both = [eyes.clone(), brows.clone()].concat();
         list.push((both.clone(), eyes.clone()));
@@ -78,7 +79,7 @@ pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel 
     let mut mean = Vec::new();
     for _ in 0..4 {
         let n = aligned.len() as f64;
-        mean = (0..scheme.of.len())
+        mean = (0..scheme.count())
             .map(|i| (aligned.iter().fold(Vec2::ZERO, |s, a| s + a[i].to_vec2()) / n).to_point())
             .collect::<Vec<_>>();
         mean = own(&mean);

@@ -17,8 +17,9 @@ use crate::points::{self, Plan, Sample};
 use crate::windows::{self, Scene};
 use crate::{others, ridge};
 
-/// Variants of each neutral photo: as it is; in other light; in other light and turned a little.
-pub const VARIANTS: usize = 3;
+/// Variants of each neutral photo: as it is; in other light and mostly before another wall; the same and turned a
+/// little.
+pub const VARIANTS: usize = 4;
 
 /// A picture to learn from.
 pub struct Picture {
@@ -49,7 +50,7 @@ impl Material {
                 let (shot, variant) = (&neutral[i / VARIANTS], i % VARIANTS);
                 let mut chance = Chance(i as u64 * 77 + 5);
                 let person = shot.person;
-                if variant < 2 {
+                if variant < 3 {
                     return Picture {
                         pyramid: varied(&shot.photo, variant, &mut chance),
                         person,
@@ -112,7 +113,7 @@ fn env(name: &str, or: usize) -> usize {
 
 /// The coarse stages, and the chains of fine ones.
 pub fn plans(scheme: &Scheme) -> (Vec<Plan>, Vec<Vec<Plan>>) {
-    let all: Vec<usize> = (0..scheme.of.len()).collect();
+    let all: Vec<usize> = (0..scheme.count()).collect();
     let stage = |scale, cell, kept, modes, blocks| Plan { scale, cell, kept, modes, blocks, all_sites: all.clone() };
     let groups = || points::groups(scheme);
     let (k, g) = (env("K", 32), env("G", 40));
@@ -224,7 +225,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
     // The inner face: what lies round it differs more from photo to photo than from face to face.
     let first = scheme.features.len();
     let inner = |i: &usize| scheme.groups.get(*i).map_or(*i >= first + 20, |g| g != "ear" && g != "contour");
-    let sites: Vec<usize> = (0..scheme.of.len()).filter(inner).collect();
+    let sites: Vec<usize> = (0..scheme.count()).filter(inner).collect();
     for which in [0, 1] {
         let judge = &model.judges[which];
         let long: Vec<Vec<f32>> = seen
