@@ -172,7 +172,8 @@ pub fn wall(photo: &Photo) -> Plane {
         (0.80..1.22).contains(&light) && (a - c).abs() < 15.0 && (b - d).abs() < 11.0
     };
     let mut mask = Plane::filled(w, h, 0.0);
-    let mut open: Vec<(usize, usize)> = (0..w).map(|x| (x, 0)).chain((0..h * 2 / 5).flat_map(|y| [(0, y), (w - 1, y)])).collect();
+    let mut open: Vec<(usize, usize)> =
+        (0..w).map(|x| (x, 0)).chain((0..h * 2 / 5).flat_map(|y| [(0, y), (w - 1, y)])).collect();
     while let Some((x, y)) = open.pop() {
         if mask.values[y * w + x] > 0.0 || !alike(x, y) {
             continue;
