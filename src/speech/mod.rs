@@ -1,11 +1,22 @@
-//! Sound in: a recording as one stream of samples, its outline for the screen, and where it is not silent.
+//! Sound in: a recording as one stream of samples, its outline for the screen, where it is not silent, and when what
+//! its script says is spoken.
 //!
-//! It reads WAV. What was said is the business of `script`, and when it was said lands in `timing`.
+//! What was said is the business of `script`, and how times are written down that of `timing`.
 
+mod align;
+mod alignment;
 mod levels;
+mod nuclei;
 mod peaks;
+mod pitch;
 mod sound;
 mod sounding;
+mod spectrogram;
 mod wav;
 
+pub use align::align;
+pub use alignment::{Alignment, Note, Pin, SpokenPhone, SpokenSyllable, Take};
+pub use nuclei::{Heard, nuclei};
+pub use pitch::{Pitch, pitch};
 pub use sound::Sound;
+pub use spectrogram::Spectrogram;
