@@ -139,7 +139,7 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     if clip.sound.is_none() && !clip.syllables.is_empty() {
         found.push(odd("there is no recording: put it there as speech.wav".into()));
     }
-    let sounding: f64 = clip.sound.iter().flat_map(crate::speech::Sound::sounding).map(|(a, b)| b - a).sum();
+    let sounding: f64 = clip.sound.iter().flat_map(|s| s.sounding()).map(|(a, b)| b - a).sum();
     let rate = clip.syllables.len() as f64 / sounding.max(1e-3);
     if clip.sound.is_some() && rate > FASTEST {
         found.push(odd(format!(

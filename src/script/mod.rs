@@ -27,6 +27,7 @@ mod system;
 mod tokens;
 mod tone;
 mod words;
+mod written;
 mod zhuyin;
 
 pub use han::{is_han, readings_of};
@@ -40,3 +41,4 @@ pub use sound::{FinalClass, InitialClass, Sound};
 pub use syllable::{Lang, Syllable};
 pub use system::System;
 pub use tokens::Pause;
+pub use written::written_words;
