@@ -307,12 +307,22 @@ impl Clip {
         if let Some(tier) = self.timing.tier("shapes") {
             return of_shapes(tier);
         }
-        let spoken = |(syllable, interval): (&Syllable, &Interval)| Spoken {
-            start: interval.start,
-            end: interval.end,
-            shapes: script::onsets(syllable, onsets).into_iter().zip(syllable.shapes.iter().copied()).collect(),
+        let phones = self.timing.tier("phones");
+        let spoken = |(syllable, interval): (&Syllable, &Interval)| {
+            let times = phones.and_then(|tier| phones_of(tier, syllable, interval)).unwrap_or_default();
+            let starts = script::onsets_in_phones(syllable, &times, onsets);
+            let shapes = starts.into_iter().zip(syllable.shapes.iter().copied()).collect();
+            Spoken { start: interval.start, end: interval.end, shapes }
         };
         self.syllables.iter().zip(self.intervals()).map(spoken).collect()
+    }
+
+    /// How many syllables have the times of their phones, by names that are known.
+    #[must_use]
+    pub fn syllables_with_phones(&self) -> usize {
+        let Some(tier) = self.timing.tier("phones") else { return 0 };
+        let has = |(s, i): &(&Syllable, &Interval)| phones_of(tier, s, i).is_some();
+        self.syllables.iter().zip(self.intervals()).filter(has).count()
     }
 
     /// What is said as an audience reads it: phrases as the script writes them, cut at its punctuation, at pauses, and
@@ -400,6 +410,16 @@ pub(super) fn without_braces(text: &str) -> String {
         }
     }
     out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Start and end of each phone of a syllable, where the tier has them all, under the names they have here.
+fn phones_of(tier: &Tier, syllable: &Syllable, interval: &Interval) -> Option<Vec<(f64, f64)>> {
+    let from = tier.intervals.partition_point(|i| f64::midpoint(i.start, i.end) < interval.start);
+    let names = script::segments(syllable);
+    let inside = tier.intervals[from..].iter().take_while(|i| f64::midpoint(i.start, i.end) < interval.end);
+    let inside: Vec<&Interval> = inside.take(names.len() + 1).collect();
+    let same = inside.len() == names.len() && inside.iter().zip(&names).all(|(i, n)| i.label == *n);
+    (same && !names.is_empty()).then(|| inside.iter().map(|i| (i.start, i.end)).collect())
 }
 
 /// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).
