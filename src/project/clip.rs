@@ -35,6 +35,8 @@ pub struct Doubt {
     pub syllable: Option<usize>,
     /// How sure the alignment is of its times, 0 to 1.
     pub confidence: f64,
+    /// Whether anything was heard: false for a syllable that the speaker left out.
+    pub heard: bool,
 }
 
 /// The longest label that is kept, in characters.
@@ -263,9 +265,14 @@ impl Clip {
         if self.score.pins.binary_search(&syllable).is_ok() {
             return Some(1.0);
         }
+        let said = self.label_of_confidence(syllable)?;
+        said.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
+    }
+
+    fn label_of_confidence(&self, syllable: usize) -> Option<&str> {
         let interval = self.intervals().get(syllable)?;
         let said = self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))?;
-        said.label.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
+        Some(said.label.as_str())
     }
 
     /// The places that an author should look at, by rising time: syllables of which the alignment is not sure, or that
@@ -274,11 +281,12 @@ impl Clip {
     pub fn doubts(&self) -> Vec<Doubt> {
         let unsure = self.intervals().iter().enumerate().filter_map(|(i, interval)| {
             let confidence = self.confidence(i).filter(|c| *c < SURE)?;
-            Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence })
+            let heard = self.label_of_confidence(i).is_none_or(|l| !l.ends_with(NOT_HEARD));
+            Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence, heard })
         });
         let beside = self.timing.tier(CONFIDENCE).into_iter().flat_map(|t| &t.intervals);
         let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT);
-        let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0 });
+        let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0, heard: true });
         let mut doubts: Vec<Doubt> = unsure.chain(beside).collect();
         doubts.sort_by(|a, b| a.start.total_cmp(&b.start));
         doubts
@@ -346,7 +354,7 @@ impl Clip {
                 // With the punctuation that follows, without forced readings in braces.
                 let upto = next.map_or(self.script.len(), |n| n.0.span.start);
                 let text = self.script.get(said[first].0.span.start..upto).unwrap_or_default();
-                let label = without_braces(text);
+                let label = script::without_braces(text);
                 tier.intervals.push(Interval::new(said[first].1.start, said[i].1.end, label));
                 first = i + 1;
             }
@@ -395,21 +403,6 @@ fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
             .at(folder)
             .help("keep one of them")),
     }
-}
-
-/// A piece of script on one line, without its `{…}`.
-pub(super) fn without_braces(text: &str) -> String {
-    let mut out = String::new();
-    let mut inside = false;
-    for c in text.chars() {
-        match c {
-            '{' => inside = true,
-            '}' => inside = false,
-            c if !inside => out.push(c),
-            _ => {}
-        }
-    }
-    out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Start and end of each phone of a syllable, where the tier has them all, under the names they have here.
