@@ -9,6 +9,7 @@ mod levels;
 mod nuclei;
 mod peaks;
 mod pitch;
+mod resample;
 mod sound;
 mod sounding;
 mod spectrogram;
