@@ -5,6 +5,7 @@
 
 pub mod align;
 mod alignment;
+mod decimate;
 mod levels;
 mod nuclei;
 mod peaks;
