@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::clip::CONFIDENCE;
 use super::{Clip, LessonFace};
 use crate::disk::{Fault, Result};
 use crate::face::{Face, FeaturePoint, How, Placed};
 use crate::geometry::Point;
 use crate::timeline::{Key, Marker, Range};
+use crate::timing::{Tier, Timing};
 
 /// Something an author did, in one step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -31,6 +33,15 @@ pub enum Edit {
         before: Vec<(f64, f64)>,
         /// As it is to be.
         after: Vec<(f64, f64)>,
+    },
+    /// All the tiers of a clip, as an alignment makes them.
+    Timing {
+        /// Number of the clip.
+        clip: usize,
+        /// As they were.
+        before: Box<Times>,
+        /// As they are to be.
+        after: Box<Times>,
     },
     /// A syllable's label: its text, or text and reading as `行{hang2}`.
     Label {
@@ -120,6 +131,15 @@ pub enum Edit {
     },
 }
 
+/// The tiers of a clip, and what they were made from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Times {
+    /// The tiers.
+    pub timing: Timing,
+    /// The checksum of sound and script they were found with, where they were found by an alignment.
+    pub aligned: Option<String>,
+}
+
 /// A feature point's place, as an edit keeps it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Spot {
@@ -171,6 +191,7 @@ impl Edit {
     pub fn inverse(&self) -> Self {
         match self.clone() {
             Self::Times { clip, first, before, after } => Self::Times { clip, first, before: after, after: before },
+            Self::Timing { clip, before, after } => Self::Timing { clip, before: after, after: before },
             Self::Label { clip, index, before, after } => Self::Label { clip, index, before: after, after: before },
             Self::Pin { clip, index, pinned } => Self::Pin { clip, index, pinned: !pinned },
             Self::AddKey { clip, key } => Self::RemoveKey { clip, key },
@@ -188,6 +209,16 @@ impl Edit {
     pub(super) fn apply(&self, clips: &mut [Clip], faces: &mut [LessonFace]) -> Result<()> {
         match self {
             Self::Times { clip, first, before, after } => set_times(clip_of(clips, *clip)?, *first, before, after),
+            Self::Timing { clip, before, after } => {
+                let clip = clip_of(clips, *clip)?;
+                if !same_times(&clip.timing, &before.timing) || clip.score.aligned != before.aligned {
+                    return Err(stale());
+                }
+                clip.timing = after.timing.clone();
+                clip.score.aligned.clone_from(&after.aligned);
+                clip.read_labels();
+                Ok(())
+            }
             Self::Label { clip, index, before, after } => {
                 let clip = clip_of(clips, *clip)?;
                 let label = clip
@@ -283,6 +314,44 @@ fn remove<T: PartialEq>(list: &mut Vec<T>, item: &T) -> Result<()> {
     Ok(())
 }
 
+/// Whether two sets of tiers have the same syllables at the same times: a file keeps microseconds, memory more. The
+/// other tiers follow the syllables.
+fn same_times(a: &Timing, b: &Timing) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() < 2e-6;
+    let intervals = |t: &Timing| t.syllables().map(|t| t.intervals.clone()).unwrap_or_default();
+    let (a, b) = (intervals(a), intervals(b));
+    a.len() == b.len()
+        && a.iter().zip(&b).all(|(a, b)| a.label == b.label && near(a.start, b.start) && near(a.end, b.end))
+}
+
+/// Moves what lies in or ends with syllables along with them: an edge at a syllable's edge stays there, one inside
+/// keeps its share of the syllable. Turning the edit round brings everything back.
+fn follow(tier: &mut Tier, before: &[(f64, f64)], after: &[(f64, f64)]) {
+    const NEAR: f64 = 2e-6;
+    let moved = |t: f64, is_start: bool| {
+        // Where two syllables touch, a start belongs to the later one and an end to the earlier.
+        let holds = |(from, to): &(f64, f64)| {
+            if is_start { *from - NEAR <= t && t < *to - NEAR } else { *from + NEAR < t && t <= *to + NEAR }
+        };
+        let place = before.iter().position(holds)?;
+        let ((a, b), (c, d)) = (before[place], after[place]);
+        Some(c + ((t - a) / (b - a)).clamp(0.0, 1.0) * (d - c))
+    };
+    for interval in &mut tier.intervals {
+        interval.start = moved(interval.start, true).unwrap_or(interval.start);
+        interval.end = moved(interval.end, false).unwrap_or(interval.end).max(interval.start);
+    }
+    // What stands between syllables, such as something that is not in the script, gives way.
+    for i in 1..tier.intervals.len() {
+        let until = tier.intervals[i - 1].end;
+        let interval = &mut tier.intervals[i];
+        if interval.start < until {
+            interval.start = until;
+            interval.end = interval.end.max(until);
+        }
+    }
+}
+
 /// Sets times that stay in order: no syllable ends before it starts or overlaps its neighbour.
 fn set_times(clip: &mut Clip, first: usize, before: &[(f64, f64)], after: &[(f64, f64)]) -> Result<()> {
     let duration = clip.duration();
@@ -306,6 +375,9 @@ fn set_times(clip: &mut Clip, first: usize, before: &[(f64, f64)], after: &[(f64
     }
     for (interval, (start, end)) in tier.intervals[first..end].iter_mut().zip(after) {
         (interval.start, interval.end) = (*start, *end);
+    }
+    for tier in clip.timing.tiers.iter_mut().filter(|t| matches!(t.name.as_str(), "words" | "phones" | CONFIDENCE)) {
+        follow(tier, before, after);
     }
     Ok(())
 }

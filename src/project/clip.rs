@@ -1,16 +1,43 @@
 //! A clip: what is said, when, with which emotions, and what its author set.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use super::change::Times;
 use super::label::{label_fits, label_reading};
 use super::manifest::ClipEntry;
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::{MouthPreset, MouthShape};
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
-use crate::speech::Sound;
+use crate::speech::{Pin, Sound};
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Interval, Tier, Timing};
+
+/// The tier in which an alignment says how sure it is of each syllable: `0.98`.
+pub(super) const CONFIDENCE: &str = "confidence";
+/// What that tier says of a syllable that was not heard, after its confidence.
+pub(super) const NOT_HEARD: &str = "not heard";
+/// What that tier says of a stretch between syllables that the script does not have.
+pub(super) const NOT_IN_SCRIPT: &str = "not in the script";
+
+/// Confidence from which on nothing is said of a syllable.
+const SURE: f64 = 0.75;
+
+/// A place that an author should look at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubt {
+    /// Seconds.
+    pub start: f64,
+    /// Seconds.
+    pub end: f64,
+    /// The syllable; none where something is said that the script does not have.
+    pub syllable: Option<usize>,
+    /// How sure the alignment is of its times, 0 to 1.
+    pub confidence: f64,
+    /// Whether anything was heard: false for a syllable that the speaker left out.
+    pub heard: bool,
+}
 
 /// The longest label that is kept, in characters.
 pub const LABEL_LIMIT: usize = 100;
@@ -29,7 +56,7 @@ pub struct Clip {
     /// When they are said: one interval of the tier `syllables` each.
     pub timing: Timing,
     /// The recording.
-    pub sound: Option<Sound>,
+    pub sound: Option<Arc<Sound>>,
     /// Where the recording is.
     pub sound_path: Option<PathBuf>,
     /// The ratio record.
@@ -42,6 +69,8 @@ pub struct Clip {
     pub warnings: Vec<String>,
     /// Checksums of the files that saving writes, as they were read.
     pub(super) seen: Seen,
+    /// What a hand had set, where the script has changed since: by the syllables of the script as it is now.
+    pub(super) carried: Vec<Pin>,
     /// The script's own syllables, before labels gave other readings.
     plain: Vec<Syllable>,
     /// Length of the sound in seconds, 0 without one.
@@ -87,6 +116,7 @@ impl Clip {
             score: Score::default(),
             warnings: Vec::new(),
             seen: Seen::default(),
+            carried: Vec::new(),
             plain: Vec::new(),
             sound_seconds: 0.0,
         };
@@ -99,7 +129,7 @@ impl Clip {
             let sound = Sound::read(path)?;
             clip.warnings.extend(sound.warnings.iter().cloned());
             clip.sound_seconds = sound.duration();
-            clip.sound = Some(sound);
+            clip.sound = Some(Arc::new(sound));
         }
         if let Some((path, text)) = text("ratios.csv")? {
             clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
@@ -115,8 +145,16 @@ impl Clip {
             Some(path) => {
                 clip.seen.timing = super::save::checksum(&path);
                 let timing = timing::read(&path)?;
-                clip.take_timing(timing).map_err(|f| f.at(&path))?;
-                clip.timing.guessed = clip.score.guessed;
+                if clip.is_of_an_older_script(&timing) {
+                    clip.carry_pins(&timing);
+                    clip.guess();
+                    clip.warnings.push(
+                        "the script has changed since its times were found: `lianpu align` finds them anew".into(),
+                    );
+                } else {
+                    clip.take_timing(timing).map_err(|f| f.at(&path))?;
+                    clip.timing.guessed = clip.score.guessed;
+                }
             }
             None => clip.guess(),
         }
@@ -159,11 +197,33 @@ impl Clip {
         Ok(())
     }
 
+    /// Whether times were found by an alignment to a script that was changed afterwards. Times that came otherwise are
+    /// somebody's work, and a script that does not fit them is a mistake to be told.
+    fn is_of_an_older_script(&self, timing: &Timing) -> bool {
+        let Some(tier) = timing.syllables().filter(|_| !self.plain.is_empty()) else { return false };
+        let parts = timing::first_parting(&self.plain, tier, label_fits).is_some();
+        parts && self.score.aligned.is_some() && self.score.aligned != self.fingerprint()
+    }
+
+    /// Keeps what a hand has set for the syllables that the new script still has.
+    fn carry_pins(&mut self, timing: &Timing) {
+        let Some(tier) = timing.syllables() else { return };
+        let labels: Vec<&Interval> = tier.spoken().collect();
+        for (old, new) in timing::common(&self.plain, &labels, |s, i| label_fits(s, &i.label)) {
+            if self.score.pins.binary_search(&new).is_ok() {
+                let interval = labels[new];
+                self.carried.push(Pin { syllable: old, start: interval.start, end: interval.end });
+            }
+        }
+        self.score.pins.clear();
+        self.score.aligned = None;
+    }
+
     /// Shares the sound among the syllables.
     fn guess(&mut self) {
         let labels: Vec<String> = self.plain.iter().map(|s| s.text.clone()).collect();
         let duration = if self.sound_seconds > 0.0 { self.sound_seconds } else { 0.3 * labels.len() as f64 };
-        let sounding = self.sound.as_ref().map(Sound::sounding).unwrap_or_default();
+        let sounding = self.sound.as_deref().map(Sound::sounding).unwrap_or_default();
         self.timing = Timing { duration, tiers: Vec::new(), guessed: !labels.is_empty() };
         if !labels.is_empty() {
             self.timing.set_tier(timing::equal_shares(&sounding, &labels, duration));
@@ -179,6 +239,57 @@ impl Clip {
                 *syllable = syllable.with_reading(&reading);
             }
         }
+    }
+
+    /// Its tiers, and what they were made from.
+    pub(super) fn times(&self) -> Times {
+        Times { timing: self.timing.clone(), aligned: self.score.aligned.clone() }
+    }
+
+    /// Whether its times are still to be found in its sound: they are guessed, or were found in another sound or for
+    /// another script.
+    #[must_use]
+    pub fn wants_alignment(&self) -> bool {
+        if self.sound.is_none() || self.syllables.is_empty() {
+            return false;
+        }
+        let all_set = self.score.pins.len() >= self.syllables.len();
+        let older = || self.score.aligned.is_some() && self.score.aligned != self.fingerprint();
+        !all_set && (self.timing.guessed || older())
+    }
+
+    /// How sure a syllable's times are, 0 to 1: what an alignment found, 1 where a hand has set them. None where
+    /// nothing is known of it.
+    #[must_use]
+    pub fn confidence(&self, syllable: usize) -> Option<f64> {
+        if self.score.pins.binary_search(&syllable).is_ok() {
+            return Some(1.0);
+        }
+        let said = self.label_of_confidence(syllable)?;
+        said.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
+    }
+
+    fn label_of_confidence(&self, syllable: usize) -> Option<&str> {
+        let interval = self.intervals().get(syllable)?;
+        let said = self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))?;
+        Some(said.label.as_str())
+    }
+
+    /// The places that an author should look at, by rising time: syllables of which the alignment is not sure, or that
+    /// were not heard, and what is said beside the script.
+    #[must_use]
+    pub fn doubts(&self) -> Vec<Doubt> {
+        let unsure = self.intervals().iter().enumerate().filter_map(|(i, interval)| {
+            let confidence = self.confidence(i).filter(|c| *c < SURE)?;
+            let heard = self.label_of_confidence(i).is_none_or(|l| !l.ends_with(NOT_HEARD));
+            Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence, heard })
+        });
+        let beside = self.timing.tier(CONFIDENCE).into_iter().flat_map(|t| &t.intervals);
+        let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT);
+        let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0, heard: true });
+        let mut doubts: Vec<Doubt> = unsure.chain(beside).collect();
+        doubts.sort_by(|a, b| a.start.total_cmp(&b.start));
+        doubts
     }
 
     /// The syllables' times, one for each.
@@ -204,12 +315,22 @@ impl Clip {
         if let Some(tier) = self.timing.tier("shapes") {
             return of_shapes(tier);
         }
-        let spoken = |(syllable, interval): (&Syllable, &Interval)| Spoken {
-            start: interval.start,
-            end: interval.end,
-            shapes: script::onsets(syllable, onsets).into_iter().zip(syllable.shapes.iter().copied()).collect(),
+        let phones = self.timing.tier("phones");
+        let spoken = |(syllable, interval): (&Syllable, &Interval)| {
+            let times = phones.and_then(|tier| phones_of(tier, syllable, interval)).unwrap_or_default();
+            let starts = script::onsets_in_phones(syllable, &times, onsets);
+            let shapes = starts.into_iter().zip(syllable.shapes.iter().copied()).collect();
+            Spoken { start: interval.start, end: interval.end, shapes }
         };
         self.syllables.iter().zip(self.intervals()).map(spoken).collect()
+    }
+
+    /// How many syllables have the times of their phones, by names that are known.
+    #[must_use]
+    pub fn syllables_with_phones(&self) -> usize {
+        let Some(tier) = self.timing.tier("phones") else { return 0 };
+        let has = |(s, i): &(&Syllable, &Interval)| phones_of(tier, s, i).is_some();
+        self.syllables.iter().zip(self.intervals()).filter(has).count()
     }
 
     /// What is said as an audience reads it: phrases as the script writes them, cut at its punctuation, at pauses, and
@@ -233,7 +354,7 @@ impl Clip {
                 // With the punctuation that follows, without forced readings in braces.
                 let upto = next.map_or(self.script.len(), |n| n.0.span.start);
                 let text = self.script.get(said[first].0.span.start..upto).unwrap_or_default();
-                let label = without_braces(text);
+                let label = script::without_braces(text);
                 tier.intervals.push(Interval::new(said[first].1.start, said[i].1.end, label));
                 first = i + 1;
             }
@@ -284,19 +405,14 @@ fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
     }
 }
 
-/// A piece of script on one line, without its `{…}`.
-fn without_braces(text: &str) -> String {
-    let mut out = String::new();
-    let mut inside = false;
-    for c in text.chars() {
-        match c {
-            '{' => inside = true,
-            '}' => inside = false,
-            c if !inside => out.push(c),
-            _ => {}
-        }
-    }
-    out.split_whitespace().collect::<Vec<_>>().join(" ")
+/// Start and end of each phone of a syllable, where the tier has them all, under the names they have here.
+fn phones_of(tier: &Tier, syllable: &Syllable, interval: &Interval) -> Option<Vec<(f64, f64)>> {
+    let from = tier.intervals.partition_point(|i| f64::midpoint(i.start, i.end) < interval.start);
+    let names = script::segments(syllable);
+    let inside = tier.intervals[from..].iter().take_while(|i| f64::midpoint(i.start, i.end) < interval.end);
+    let inside: Vec<&Interval> = inside.take(names.len() + 1).collect();
+    let same = inside.len() == names.len() && inside.iter().zip(&names).all(|(i, n)| i.label == *n);
+    (same && !names.is_empty()).then(|| inside.iter().map(|i| (i.start, i.end)).collect())
 }
 
 /// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).

@@ -3,6 +3,7 @@
 //! It owns the files of a project and what they mean together; how a face is drawn or a frame written is not its
 //! business. Loading never changes anything on disk.
 
+mod align;
 mod change;
 mod check;
 mod clip;
@@ -16,9 +17,10 @@ mod lesson;
 mod manifest;
 mod save;
 
-pub use change::{Change, Edit, Spot};
+pub use align::AlignJob;
+pub use change::{Change, Edit, Spot, Times};
 pub use check::{Finding, check};
-pub use clip::{Clip, LABEL_LIMIT};
+pub use clip::{Clip, Doubt, LABEL_LIMIT};
 pub use create::{Made, NewLesson, create};
 pub use face::LessonFace;
 pub use history::History;

@@ -3,7 +3,7 @@
 //!
 //! What was said is the business of `script`, and how times are written down that of `timing`.
 
-mod align;
+pub mod align;
 mod alignment;
 mod decode;
 mod iso;

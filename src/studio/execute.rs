@@ -21,14 +21,14 @@ use crate::speech::Sound;
 pub enum Job {
     /// Open a lesson and check it.
     Open(PathBuf),
-    /// Make the outline of a clip's sound; the sound comes back with it.
+    /// Make the outline of a clip's sound.
     Outline {
         /// The lesson's folder.
         root: PathBuf,
         /// Number of the clip.
         clip: usize,
         /// Its sound.
-        sound: Sound,
+        sound: Arc<Sound>,
     },
     /// Read the photo of a face, and work out the stages of the search.
     Photo {
@@ -133,7 +133,7 @@ fn open_clip(state: &mut State) -> Option<Job> {
     if let Some(left) = state.open.as_ref()?.left.get(&chosen) {
         editor.go_back(&state.lesson()?.clips[chosen], *left);
     }
-    let sound = state.lesson_mut()?.clips[chosen].sound.take();
+    let sound = state.lesson()?.clips[chosen].sound.clone();
     if sound.is_none() {
         editor.loudest = Some(0.0);
     }

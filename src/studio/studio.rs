@@ -21,7 +21,6 @@ use crate::drawing::Drawing;
 use crate::face::Created;
 use crate::photo::Photo;
 use crate::project::{Finding, Lesson};
-use crate::speech::Sound;
 
 /// What a thread has to tell.
 #[derive(Debug)]
@@ -41,8 +40,6 @@ pub enum Report {
         root: PathBuf,
         /// Number of the clip.
         clip: usize,
-        /// The sound, with its outline.
-        sound: Box<Sound>,
         /// Its loudest sample.
         loudest: f32,
     },
@@ -197,14 +194,11 @@ impl Studio {
                 }
                 self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0, left: BTreeMap::new() });
             }
-            Report::Outlined { root, clip, sound, loudest } => {
+            Report::Outlined { root, clip, loudest } => {
                 self.under_way -= 1;
                 // The author may have gone to another lesson in the meantime.
                 if self.state.lesson().is_none_or(|l| l.root != root) {
                     return;
-                }
-                if let Some(clip) = self.state.lesson_mut().and_then(|l| l.clips.get_mut(clip)) {
-                    clip.sound = Some(*sound);
                 }
                 if let Some(editor) = self.state.editor.as_mut().filter(|e| e.clip == clip) {
                     editor.loudest = Some(loudest);

@@ -36,7 +36,7 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
             Job::Outline { root, clip, sound } => {
                 // One column over everything builds the whole outline.
                 let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();
-                reports.send(Report::Outlined { root, clip, sound: Box::new(sound), loudest: high.max(-low) })
+                reports.send(Report::Outlined { root, clip, loudest: high.max(-low) })
             }
             Job::Photo { root, face, path, eyes } => {
                 let read = catch_unwind(|| Photo::read(&path)).unwrap_or_else(|_| Err(broken_photo()));

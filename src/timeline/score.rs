@@ -134,6 +134,9 @@ pub struct Score {
     pub pins: Vec<usize>,
     /// Whether the times of the syllables that are not pinned are guesses.
     pub guessed: bool,
+    /// The checksum of the sound and the script that an alignment found the times with; none where they came
+    /// otherwise.
+    pub aligned: Option<String>,
     /// Seed of what is random.
     pub seed: u64,
     /// Whether blinks are made up between her own.
@@ -148,6 +151,7 @@ impl Default for Score {
             markers: Vec::new(),
             pins: Vec::new(),
             guessed: false,
+            aligned: None,
             seed: 1,
             auto_blink: true,
         }

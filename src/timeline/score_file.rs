@@ -23,6 +23,9 @@ impl Score {
         score.pins.sort_unstable();
         score.pins.dedup();
         score.guessed = file.guessed;
+        // Anything else was not written by this program, and is the checksum of nothing.
+        let is_checksum = |s: &String| s.len() == 8 && s.bytes().all(|b| b.is_ascii_hexdigit());
+        score.aligned = file.aligned.filter(is_checksum);
         for key in file.keys {
             let line = line_of(key.span());
             score.keys.push(key.into_inner().read().map_err(|f| f.line(line))?);
@@ -57,6 +60,9 @@ impl Score {
         }
         if self.guessed {
             out.push_str("guessed = true\n");
+        }
+        if let Some(checksum) = &self.aligned {
+            let _ = writeln!(out, "aligned = \"{checksum}\"");
         }
         for key in self.sorted_keys() {
             let _ = write!(out, "\n[[key]]\ntrack = \"{}\"\ntime = {}\n", name_of(key.value.track()), Float(key.time));
@@ -101,6 +107,8 @@ struct File {
     pins: Vec<usize>,
     #[serde(default)]
     guessed: bool,
+    #[serde(default)]
+    aligned: Option<String>,
     #[serde(default, rename = "key")]
     keys: Vec<toml::Spanned<FileKey>>,
     #[serde(default, rename = "range")]

@@ -34,6 +34,46 @@ pub fn first_parting<T>(expected: &[T], labels: &Tier, fits: impl Fn(&T, &str) -
     }
 }
 
+/// The longest row of pairs, both rising, in which items of two lists fit each other: what an edit of one into the
+/// other has left alone. Pairs are (place in the first, place in the second).
+#[must_use]
+pub fn common<A, B>(first: &[A], second: &[B], fits: impl Fn(&A, &B) -> bool) -> Vec<(usize, usize)> {
+    let mut pairs = Vec::new();
+    let start = first.iter().zip(second).take_while(|(a, b)| fits(a, b)).count();
+    pairs.extend((0..start).map(|i| (i, i)));
+    let (a, b) = (&first[start..], &second[start..]);
+    let end = a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| fits(a, b)).count();
+    let (a, b) = (&a[..a.len() - end], &b[..b.len() - end]);
+    // What is left between is small in all but a script written anew, of which nothing needs to be kept.
+    const LARGEST: usize = 4_000_000;
+    if a.len().saturating_mul(b.len()) <= LARGEST {
+        let width = b.len() + 1;
+        let mut lengths = vec![0_u32; (a.len() + 1) * width];
+        for i in (0..a.len()).rev() {
+            for j in (0..b.len()).rev() {
+                lengths[i * width + j] = if fits(&a[i], &b[j]) {
+                    1 + lengths[(i + 1) * width + j + 1]
+                } else {
+                    lengths[(i + 1) * width + j].max(lengths[i * width + j + 1])
+                };
+            }
+        }
+        let (mut i, mut j) = (0, 0);
+        while i < a.len() && j < b.len() {
+            if fits(&a[i], &b[j]) {
+                pairs.push((start + i, start + j));
+                (i, j) = (i + 1, j + 1);
+            } else if lengths[(i + 1) * width + j] >= lengths[i * width + j + 1] {
+                i += 1;
+            } else {
+                j += 1;
+            }
+        }
+    }
+    pairs.extend((0..end).rev().map(|k| (first.len() - 1 - k, second.len() - 1 - k)));
+    pairs
+}
+
 /// Makes sure that the labels of a tier are what is expected, one for one.
 ///
 /// # Errors
@@ -127,6 +167,18 @@ mod tests {
     fn a_missing_label_and_one_too_many_are_told_from_a_wrong_one() {
         assert!(fault("a b c", "a c").unwrap().ends_with("script: a [b] c; tier: a [c]; has the tier left one out?"));
         assert!(fault("a c", "a b c").unwrap().ends_with("has the script left one out?"));
+    }
+
+    #[test]
+    fn what_an_edit_has_left_alone_is_found_again() {
+        let pairs = |a: &str, b: &str| {
+            let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+            common(&a, &b, |a, b| a == b)
+        };
+        assert_eq!(pairs("abcd", "abxd"), [(0, 0), (1, 1), (3, 3)]);
+        assert_eq!(pairs("abcbd", "acbbd"), [(0, 0), (2, 1), (3, 3), (4, 4)]);
+        assert_eq!(pairs("", "ab"), []);
+        assert_eq!(pairs("aXbYc", "abc"), [(0, 0), (2, 1), (4, 2)]);
     }
 
     #[test]

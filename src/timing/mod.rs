@@ -18,7 +18,7 @@ mod tiers;
 
 pub use format::{Format, parse, read, write, write_tier};
 pub use guess::equal_shares;
-pub use matching::{Parting, first_parting, match_labels};
+pub use matching::{Parting, common, first_parting, match_labels};
 pub use tiers::{Interval, Tier, Timing, is_silence_mark};
 
 /// The latest time that is read, in seconds: 100 hours, which is what two digits of hours can say.

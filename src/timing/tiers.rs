@@ -1,5 +1,7 @@
 //! What times look like once they are read: intervals in tiers, tiers in a timing.
 
+use serde::{Deserialize, Serialize};
+
 use crate::disk::{Fault, Result};
 
 /// As many tiers as a file may have. People use fewer than ten; names are looked for one by one.
@@ -9,7 +11,7 @@ pub(super) const MAX_TIERS: usize = 256;
 const KNOWN: [&str; 4] = ["words", "syllables", "phones", "shapes"];
 
 /// One label and when it holds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// Seconds from the start of the sound.
     pub start: f64,
@@ -34,7 +36,7 @@ impl Interval {
 }
 
 /// Labels of one kind, in order and not overlapping. What lies between them is silence.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Tier {
     /// `words`, `syllables`, `phones`, `shapes`, or what another program called it.
     pub name: String,
@@ -76,7 +78,7 @@ pub fn is_silence_mark(label: &str) -> bool {
 }
 
 /// Everything that is known of when a recording says what.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Timing {
     /// How long the recording is, in seconds, as far as the file tells: SRT and WebVTT only know their last cue.
     pub duration: f64,
