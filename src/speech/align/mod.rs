@@ -28,10 +28,12 @@ use super::{Alignment, SpokenPhone, SpokenSyllable, Take};
 use crate::disk::{Fault, Result};
 
 /// How much the sound counts: frames overlap and follow each other, and say much the same.
-static SOUND: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("SOUND").map_or(0.2, |s| s.parse().unwrap()));
+static SOUND: std::sync::LazyLock<f32> =
+    std::sync::LazyLock::new(|| std::env::var("SOUND").map_or(0.2, |s| s.parse().unwrap()));
 
 /// Passes after the first, each with the model moved towards what the one before found.
-static PASSES: std::sync::LazyLock<usize> = std::sync::LazyLock::new(|| std::env::var("PASSES").map_or(3, |s| s.parse().unwrap()));
+static PASSES: std::sync::LazyLock<usize> =
+    std::sync::LazyLock::new(|| std::env::var("PASSES").map_or(3, |s| s.parse().unwrap()));
 
 /// What leaving the way costs.
 const COSTS: Costs = Costs { pause: 6.0, other: 40.0, skip: 40.0 };

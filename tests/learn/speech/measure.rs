@@ -150,7 +150,15 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
         if std::env::var("SHOW").is_ok() {
             for (t, s) in truth.iter().zip(&a.syllables) {
                 let phones: Vec<String> = s.phones.iter().map(|p| format!("{} {:.3}", p.phone, p.start)).collect();
-                println!("{file} {:9} {:.3} {:+4.0}   {:.3} {:+4.0}  {}", t.0, t.1, (s.start - t.1) * 1000.0, t.2, (s.end - t.2) * 1000.0, phones.join(", "));
+                println!(
+                    "{file} {:9} {:.3} {:+4.0}   {:.3} {:+4.0}  {}",
+                    t.0,
+                    t.1,
+                    (s.start - t.1) * 1000.0,
+                    t.2,
+                    (s.end - t.2) * 1000.0,
+                    phones.join(", ")
+                );
             }
         }
         let found: Vec<f64> = a
