@@ -167,7 +167,8 @@ fn lay_between(tier: &mut Tier, start: f64, end: f64) {
 
 impl Clip {
     /// The syllables whose times are the author's.
-    pub(super) fn pins(&self) -> Vec<Pin> {
+    #[must_use]
+    pub fn pins(&self) -> Vec<Pin> {
         let own = self.score.pins.iter().filter_map(|p| {
             let interval = self.intervals().get(*p)?;
             Some(Pin { syllable: *p, start: interval.start, end: interval.end })
@@ -178,7 +179,7 @@ impl Clip {
     }
 
     /// Words in time: what the script writes without a space or mark between.
-    fn words(&self, syllables: &Tier) -> Tier {
+    pub(super) fn words(&self, syllables: &Tier) -> Tier {
         let mut tier = Tier::new("words");
         for range in script::written_words(&self.script, &self.syllables) {
             let (Some(first), Some(last)) =

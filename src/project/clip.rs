@@ -35,6 +35,8 @@ pub struct Doubt {
     pub syllable: Option<usize>,
     /// How sure the alignment is of its times, 0 to 1.
     pub confidence: f64,
+    /// Whether anything was heard there: a syllable that the speaker left out was not.
+    pub heard: bool,
 }
 
 /// The longest label that is kept, in characters.
@@ -70,7 +72,9 @@ pub struct Clip {
     /// What a hand had set, where the script has changed since: by the syllables of the script as it is now.
     pub(super) carried: Vec<Pin>,
     /// The script's own syllables, before labels gave other readings.
-    plain: Vec<Syllable>,
+    pub(super) plain: Vec<Syllable>,
+    /// The script as its file has it, or as the labels of the timing gave it.
+    pub(super) kept_script: String,
     /// Length of the sound in seconds, 0 without one.
     sound_seconds: f64,
 }
@@ -78,6 +82,7 @@ pub struct Clip {
 /// What the files that saving writes looked like when they were last read or written; none where there was none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Seen {
+    pub(super) script: Option<u32>,
     pub(super) timing: Option<u32>,
     pub(super) score: Option<u32>,
 }
@@ -116,12 +121,14 @@ impl Clip {
             seen: Seen::default(),
             carried: Vec::new(),
             plain: Vec::new(),
+            kept_script: String::new(),
             sound_seconds: 0.0,
         };
         if let Some((path, script)) = text("script.txt")? {
             let system = entry.script_system.unwrap_or(System::Auto);
             clip.plain = script::syllables(&script, system).map_err(|f| f.at(&path))?;
             clip.script = script;
+            clip.seen.script = super::save::checksum(&path);
         }
         if let Some(path) = &clip.sound_path {
             let sound = Sound::read(path)?;
@@ -157,6 +164,7 @@ impl Clip {
             None => clip.guess(),
         }
         clip.read_labels();
+        clip.kept_script.clone_from(&clip.script);
         if clip.duration() <= 0.0 {
             return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
                 .at(&folder)
@@ -268,17 +276,34 @@ impl Clip {
         said.label.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
     }
 
+    /// Whether a syllable was heard when its times were found, or is vouched for; also where nothing is known of it.
+    #[must_use]
+    pub fn is_heard(&self, syllable: usize) -> bool {
+        let said = || {
+            let interval = self.intervals().get(syllable)?;
+            self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))
+        };
+        self.score.pins.binary_search(&syllable).is_ok() || said().is_none_or(|i| !i.label.ends_with(NOT_HEARD))
+    }
+
     /// The places that an author should look at, by rising time: syllables of which the alignment is not sure, or that
     /// were not heard, and what is said beside the script.
     #[must_use]
     pub fn doubts(&self) -> Vec<Doubt> {
         let unsure = self.intervals().iter().enumerate().filter_map(|(i, interval)| {
             let confidence = self.confidence(i).filter(|c| *c < SURE)?;
-            Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence })
+            let heard = self.is_heard(i);
+            Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence, heard })
         });
         let beside = self.timing.tier(CONFIDENCE).into_iter().flat_map(|t| &t.intervals);
         let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT);
-        let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0 });
+        let beside = beside.map(|i| Doubt {
+            start: i.start,
+            end: i.end,
+            syllable: None,
+            confidence: 0.0,
+            heard: true,
+        });
         let mut doubts: Vec<Doubt> = unsure.chain(beside).collect();
         doubts.sort_by(|a, b| a.start.total_cmp(&b.start));
         doubts
