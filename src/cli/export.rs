@@ -20,7 +20,7 @@ pub struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     projects: Vec<PathBuf>,
-    /// The forms, with commas between them: svg, png, textgrid, srt, vtt.
+    /// The forms, with commas between them: svg, png, textgrid, srt, vtt, poses.
     #[arg(long = "to", value_name = "FORMAT", required = true, value_delimiter = ',')]
     formats: Vec<Format>,
     /// One clip; all of them where left out.
@@ -131,7 +131,11 @@ fn check_names(projects: &[PathBuf], args: &Args) -> Result<()> {
 }
 
 fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &mut dyn Write) -> Result<()> {
-    let lesson = Lesson::read(project)?;
+    let mut lesson = Lesson::read(project)?;
+    let clips: Vec<usize> = (0..lesson.clips.len())
+        .filter(|n| args.clip.as_ref().is_none_or(|name| lesson.clips[*n].entry.name == *name))
+        .collect();
+    super::align::find_missing(&mut lesson, &clips);
     let jobs = plan(&lesson, request)?;
     for clip in &lesson.clips {
         note_guess(clip, &jobs);

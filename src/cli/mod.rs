@@ -1,6 +1,7 @@
 //! The commands: a thin face on the rooms. Every command reads its arguments, calls a room and prints; it decides
 //! nothing that a library user could want decided the same way.
 
+mod align;
 mod check;
 mod completions;
 mod convert;
@@ -11,6 +12,7 @@ mod play;
 mod plot;
 mod studio;
 mod syllables;
+mod times;
 
 use std::io::Write;
 
@@ -34,6 +36,8 @@ pub struct Cli {
 enum Command {
     /// Make a lesson from a recording and its script, from times, or from ratios.
     New(new::Args),
+    /// Find when each syllable of a script is spoken in a recording.
+    Align(align::Args),
     /// Say what lessons have, lack, and have wrong.
     Check(check::Args),
     /// Write lessons as frames and subtitles.
@@ -88,6 +92,7 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
     match &cli.command {
         Some(Command::New(args)) => new::run(args, out),
+        Some(Command::Align(args)) => align::run(args, out),
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
         Some(Command::Face(args)) => face::run(args, out),

@@ -57,7 +57,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         anchors: super::face::anchors(&args.at)?,
         figure: args.figure.clone(),
     };
-    let Made { lesson, warnings } = create(&args.project, &new)?;
+    let Made { lesson, warnings, notes } = create(&args.project, &new)?;
     let root = args.project.display();
     let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
     match lesson.clips.first() {
@@ -70,6 +70,17 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             say(format!("made {root}: {:.2} s{syllables}", clip.duration()))?;
             for warning in &clip.warnings {
                 say(format!("note: {warning}"))?;
+            }
+            for note in &notes {
+                say(format!("note: {note}"))?;
+            }
+            let doubts = clip.doubts();
+            if let Some(first) = doubts.first() {
+                let places = if doubts.len() == 1 { "1 place".into() } else { format!("{} places", doubts.len()) };
+                say(format!(
+                    "the times were found in the sound; {places} to look at, the first at {:.2} s",
+                    first.start
+                ))?;
             }
             if clip.timing.guessed {
                 say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;

@@ -33,8 +33,9 @@ pub fn run(args: &Args) -> Result<()> {
     let show = match (&args.ratios, &args.project) {
         (Some(path), _) => of_record(path, &args.figure)?,
         (None, Some(project)) => {
-            let lesson = Lesson::read(project)?;
+            let mut lesson = Lesson::read(project)?;
             let clip = lesson.clip_named(args.clip.as_deref()).map_err(Fault::of_the_call)?;
+            super::align::find_missing(&mut lesson, &[clip]);
             Show::of_clip(&lesson, clip)?
         }
         (None, None) => return Err(Fault::new("there is nothing to play").help("name a project").of_the_call()),

@@ -8,4 +8,5 @@ mod table;
 mod tracks;
 
 pub use record::{Record, Row};
+pub(crate) use table::decimal;
 pub use tracks::{MouthMoves, TrackRow, Tracks};

@@ -138,7 +138,7 @@ fn checked(rows: Vec<Line>, columns: &[&str]) -> Result<Vec<Line>> {
 }
 
 /// A number with at most `places` decimals, no zeros at its end, and no minus before a zero.
-pub(super) fn decimal(value: f64, places: i32) -> String {
+pub(crate) fn decimal(value: f64, places: i32) -> String {
     let scale = 10f64.powi(places);
     let rounded = (value * scale).round() / scale;
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })

@@ -4,6 +4,7 @@
 
 mod frames;
 mod plan;
+mod poses;
 mod run;
 
 pub use frames::{FrameSet, Shard};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::{FrameSet, Shard};
+use super::{FrameSet, Shard, poses};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::Figure;
@@ -24,11 +24,13 @@ pub enum Format {
     Srt,
     /// The times as WebVTT subtitles.
     Vtt,
+    /// A table of every frame's pose.
+    Poses,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Svg, Self::Png, Self::TextGrid, Self::Srt, Self::Vtt];
+    pub const ALL: [Self; 6] = [Self::Svg, Self::Png, Self::TextGrid, Self::Srt, Self::Vtt, Self::Poses];
 
     /// Its name on the command line and in file names.
     #[must_use]
@@ -39,6 +41,7 @@ impl Format {
             Self::TextGrid => "textgrid",
             Self::Srt => "srt",
             Self::Vtt => "vtt",
+            Self::Poses => "poses",
         }
     }
 
@@ -180,6 +183,10 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
             Format::TextGrid => crate::timing::Format::TextGrid,
             Format::Srt => crate::timing::Format::Srt,
             Format::Vtt => crate::timing::Format::WebVtt,
+            Format::Poses => {
+                let path = out.join(format!("{}.poses.csv", clip.entry.name));
+                return Some((path, poses::to_csv(&timeline, &frames)));
+            }
             Format::Svg | Format::Png => return None,
         };
         let path = out.join(format!("{}.{}", clip.entry.name, timing.extension()));
@@ -193,6 +200,7 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
         };
         Some((path, text))
     });
+    let texts = texts.collect();
     Ok(Job {
         title: lesson.manifest.title.clone(),
         clip: clip.entry.name.clone(),
@@ -202,7 +210,7 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
         count,
         size: output.size,
         background: request.background,
-        texts: texts.collect(),
+        texts,
         formats: request.formats.iter().copied().filter(|f| f.is_frames()).collect(),
         timeline,
         figure: lesson.figure_of(&clip.entry)?,

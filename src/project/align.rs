@@ -181,19 +181,11 @@ impl Clip {
     /// Words in time: what the script writes without a space or mark between.
     pub(super) fn words(&self, syllables: &Tier) -> Tier {
         let mut tier = Tier::new("words");
-        for range in script::written_words(&self.script, &self.syllables) {
-            let (Some(first), Some(last)) =
-                (syllables.intervals.get(range.start), syllables.intervals.get(range.end - 1))
-            else {
-                continue;
-            };
-            let text = self
-                .script
-                .get(self.syllables[range.start].span.start..self.syllables[range.end - 1].span.end)
-                .unwrap_or_default();
-            let label = super::clip::without_braces(text);
-            let label = if label.is_empty() { self.syllables[range.start].text.clone() } else { label };
-            tier.intervals.push(Interval::new(first.start, last.end, label));
+        for word in script::written_words(&self.script, &self.syllables) {
+            let at = &syllables.intervals;
+            if let (Some(first), Some(last)) = (at.get(word.syllables.start), at.get(word.syllables.end - 1)) {
+                tier.intervals.push(Interval::new(first.start, last.end, word.text));
+            }
         }
         tier
     }

@@ -131,7 +131,8 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     let mut found = vec![Finding::Fine(format!("clip {name}: {}", parts.join(", ")))];
     let odd = |text: String| Finding::Odd(format!("clip {name}: {text}"));
     if clip.timing.guessed && !clip.syllables.is_empty() {
-        found.push(odd("the syllables' times are guessed; set them in the studio".into()));
+        let how = if clip.sound.is_some() { "`lianpu align` finds them" } else { "set them in the studio" };
+        found.push(odd(format!("the syllables' times are guessed; {how}")));
     }
     if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
         found.push(odd("there is sound and no script, so the mouth stays shut".into()));
@@ -149,8 +150,19 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     if clip.timing.tier("shapes").is_some() && !clip.syllables.is_empty() {
         found.push(odd("its tier `shapes` moves the mouth; syllables' times and readings do not".into()));
     }
-    if clip.timing.tier("phones").is_some() {
-        found.push(odd("its tier `phones` is kept, and not used by this version".into()));
+    if clip.timing.tier("phones").is_some_and(|t| !t.intervals.is_empty()) && clip.syllables_with_phones() == 0 {
+        found.push(odd(
+            "its tier `phones` is kept and moves nothing: its names are not those of Pinyin or ARPAbet".into()
+        ));
+    }
+    let doubts = clip.doubts();
+    if let Some(first) = doubts.first() {
+        let text = first.syllable.and_then(|s| clip.syllables.get(s)).map_or("beside the script", |s| s.text.as_str());
+        found.push(odd(format!(
+            "{} of its times to look at, the first at {:.2} s ({text})",
+            counted(doubts.len(), "place"),
+            first.start
+        )));
     }
     let unread = clip.syllables.iter().filter(|s| s.lang == Lang::Zh && s.pinyin.is_empty()).count();
     if unread > 0 {

@@ -35,7 +35,7 @@ pub struct Doubt {
     pub syllable: Option<usize>,
     /// How sure the alignment is of its times, 0 to 1.
     pub confidence: f64,
-    /// Whether anything was heard there: a syllable that the speaker left out was not.
+    /// Whether anything was heard: false for a syllable that the speaker left out.
     pub heard: bool,
 }
 
@@ -271,19 +271,14 @@ impl Clip {
         if self.score.pins.binary_search(&syllable).is_ok() {
             return Some(1.0);
         }
-        let interval = self.intervals().get(syllable)?;
-        let said = self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))?;
-        said.label.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
+        let said = self.label_of_confidence(syllable)?;
+        said.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
     }
 
-    /// Whether a syllable was heard when its times were found, or is vouched for; also where nothing is known of it.
-    #[must_use]
-    pub fn is_heard(&self, syllable: usize) -> bool {
-        let said = || {
-            let interval = self.intervals().get(syllable)?;
-            self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))
-        };
-        self.score.pins.binary_search(&syllable).is_ok() || said().is_none_or(|i| !i.label.ends_with(NOT_HEARD))
+    fn label_of_confidence(&self, syllable: usize) -> Option<&str> {
+        let interval = self.intervals().get(syllable)?;
+        let said = self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))?;
+        Some(said.label.as_str())
     }
 
     /// The places that an author should look at, by rising time: syllables of which the alignment is not sure, or that
@@ -292,18 +287,12 @@ impl Clip {
     pub fn doubts(&self) -> Vec<Doubt> {
         let unsure = self.intervals().iter().enumerate().filter_map(|(i, interval)| {
             let confidence = self.confidence(i).filter(|c| *c < SURE)?;
-            let heard = self.is_heard(i);
+            let heard = self.label_of_confidence(i).is_none_or(|l| !l.ends_with(NOT_HEARD));
             Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence, heard })
         });
         let beside = self.timing.tier(CONFIDENCE).into_iter().flat_map(|t| &t.intervals);
         let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT);
-        let beside = beside.map(|i| Doubt {
-            start: i.start,
-            end: i.end,
-            syllable: None,
-            confidence: 0.0,
-            heard: true,
-        });
+        let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0, heard: true });
         let mut doubts: Vec<Doubt> = unsure.chain(beside).collect();
         doubts.sort_by(|a, b| a.start.total_cmp(&b.start));
         doubts
@@ -332,12 +321,22 @@ impl Clip {
         if let Some(tier) = self.timing.tier("shapes") {
             return of_shapes(tier);
         }
-        let spoken = |(syllable, interval): (&Syllable, &Interval)| Spoken {
-            start: interval.start,
-            end: interval.end,
-            shapes: script::onsets(syllable, onsets).into_iter().zip(syllable.shapes.iter().copied()).collect(),
+        let phones = self.timing.tier("phones");
+        let spoken = |(syllable, interval): (&Syllable, &Interval)| {
+            let times = phones.and_then(|tier| phones_of(tier, syllable, interval)).unwrap_or_default();
+            let starts = script::onsets_in_phones(syllable, &times, onsets);
+            let shapes = starts.into_iter().zip(syllable.shapes.iter().copied()).collect();
+            Spoken { start: interval.start, end: interval.end, shapes }
         };
         self.syllables.iter().zip(self.intervals()).map(spoken).collect()
+    }
+
+    /// How many syllables have the times of their phones, by names that are known.
+    #[must_use]
+    pub fn syllables_with_phones(&self) -> usize {
+        let Some(tier) = self.timing.tier("phones") else { return 0 };
+        let has = |(s, i): &(&Syllable, &Interval)| phones_of(tier, s, i).is_some();
+        self.syllables.iter().zip(self.intervals()).filter(has).count()
     }
 
     /// What is said as an audience reads it: phrases as the script writes them, cut at its punctuation, at pauses, and
@@ -361,7 +360,7 @@ impl Clip {
                 // With the punctuation that follows, without forced readings in braces.
                 let upto = next.map_or(self.script.len(), |n| n.0.span.start);
                 let text = self.script.get(said[first].0.span.start..upto).unwrap_or_default();
-                let label = without_braces(text);
+                let label = script::without_braces(text);
                 tier.intervals.push(Interval::new(said[first].1.start, said[i].1.end, label));
                 first = i + 1;
             }
@@ -412,19 +411,14 @@ fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
     }
 }
 
-/// A piece of script on one line, without its `{…}`.
-pub(super) fn without_braces(text: &str) -> String {
-    let mut out = String::new();
-    let mut inside = false;
-    for c in text.chars() {
-        match c {
-            '{' => inside = true,
-            '}' => inside = false,
-            c if !inside => out.push(c),
-            _ => {}
-        }
-    }
-    out.split_whitespace().collect::<Vec<_>>().join(" ")
+/// Start and end of each phone of a syllable, where the tier has them all, under the names they have here.
+fn phones_of(tier: &Tier, syllable: &Syllable, interval: &Interval) -> Option<Vec<(f64, f64)>> {
+    let from = tier.intervals.partition_point(|i| f64::midpoint(i.start, i.end) < interval.start);
+    let names = script::segments(syllable);
+    let inside = tier.intervals[from..].iter().take_while(|i| f64::midpoint(i.start, i.end) < interval.end);
+    let inside: Vec<&Interval> = inside.take(names.len() + 1).collect();
+    let same = inside.len() == names.len() && inside.iter().zip(&names).all(|(i, n)| i.label == *n);
+    (same && !names.is_empty()).then(|| inside.iter().map(|i| (i.start, i.end)).collect())
 }
 
 /// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).

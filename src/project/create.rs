@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Lesson;
 use super::face::FACE_FILE;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
+use super::{AlignJob, Lesson};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::Record;
 use crate::face::{Anchors, Created, Warning};
@@ -48,6 +48,8 @@ pub struct Made {
     pub lesson: Lesson,
     /// What there is to say of its photo.
     pub warnings: Vec<Warning>,
+    /// What there is to say of its recording.
+    pub notes: Vec<String>,
 }
 
 /// Makes the lesson `root` and returns it, read back.
@@ -128,7 +130,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     write_whole(&draft.path().join(".gitignore"), b"/.lianpu/\n/export/\n")?;
     // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
     // files, not the draft's.
-    let lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(&f, new))?;
+    let mut lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(&f, new))?;
     if lesson.clips.iter().any(|c| c.sound.is_some() && c.syllables.is_empty()) {
         let fault = Fault::new("there is nothing to say in the script").help("write what is said in the recording");
         return Err(match &new.script {
@@ -136,6 +138,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
             None => fault,
         });
     }
+    let notes = find_times(&mut lesson)?;
     drop(lesson);
     if root.exists() {
         std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
@@ -147,7 +150,25 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     })?;
     open_to_others(root);
     let warnings = face.map_or_else(Vec::new, |f| f.created.warnings);
-    Ok(Made { lesson: Lesson::read(root)?, warnings })
+    Ok(Made { lesson: Lesson::read(root)?, warnings, notes })
+}
+
+/// Finds the times of a new lesson in its sound, and says what there is to say of them. A recording that cannot be
+/// aligned is no reason not to make a lesson of it.
+fn find_times(lesson: &mut Lesson) -> Result<Vec<String>> {
+    let wanted: Vec<usize> = (0..lesson.clips.len()).filter(|n| lesson.clips[*n].wants_alignment()).collect();
+    let mut notes = Vec::new();
+    for (number, found) in AlignJob::of(lesson, &wanted)?.run() {
+        match found {
+            Ok(found) => {
+                notes.extend(found.notes.iter().map(ToString::to_string));
+                lesson.take_alignment(number, &found);
+                lesson.clips[number].save()?;
+            }
+            Err(fault) => notes.push(format!("its times could not be found: {fault}")),
+        }
+    }
+    Ok(notes)
 }
 
 /// What the face of a new lesson is called.

@@ -94,7 +94,7 @@ impl LessonFace {
 }
 
 impl Clip {
-    fn save(&mut self) -> Result<Vec<PathBuf>> {
+    pub(super) fn save(&mut self) -> Result<Vec<PathBuf>> {
         let mut written: Vec<PathBuf> = self.save_script()?.into_iter().collect();
         // Guesses are made anew from the sound, so they are not written until something of the tier was set by hand.
         let labels_set = self.intervals().iter().zip(&self.syllables).any(|(i, s)| i.label != s.text);

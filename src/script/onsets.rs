@@ -1,7 +1,7 @@
 //! When, within its syllable, each mouth shape starts: as the thesis has it (5.3), or as it was measured
 //! (`SOURCES.md` section 4).
 //!
-//! Times of phones are to win over both where an alignment gives them; so far nothing reads them.
+//! Where the times of phones are known they win over both (`onsets_in_phones`).
 
 use std::sync::LazyLock;
 

@@ -4,10 +4,19 @@ use std::ops::Range;
 
 use super::syllable::Syllable;
 
+/// What a script writes in one piece.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WrittenWord {
+    /// Its syllables.
+    pub syllables: Range<usize>,
+    /// How it is written, without readings in braces.
+    pub text: String,
+}
+
 /// The runs of syllables that stand in the script without a space or mark between them: the words of a romanised or
-/// English script, and the phrases between the marks of one in characters. Each is a range of syllables.
+/// English script, and the phrases between the marks of one in characters.
 #[must_use]
-pub fn written_words(script: &str, syllables: &[Syllable]) -> Vec<Range<usize>> {
+pub fn written_words(script: &str, syllables: &[Syllable]) -> Vec<WrittenWord> {
     let mut words: Vec<Range<usize>> = Vec::new();
     for (i, syllable) in syllables.iter().enumerate() {
         let joined = words.last().is_some_and(|word: &Range<usize>| {
@@ -21,7 +30,28 @@ pub fn written_words(script: &str, syllables: &[Syllable]) -> Vec<Range<usize>> 
             _ => words.push(i..i + 1),
         }
     }
-    words
+    let written = |range: Range<usize>| {
+        let (first, last) = (&syllables[range.start], &syllables[range.end - 1]);
+        let text = without_braces(script.get(first.span.start..last.span.end).unwrap_or_default());
+        WrittenWord { text: if text.is_empty() { first.text.clone() } else { text }, syllables: range }
+    };
+    words.into_iter().map(written).collect()
+}
+
+/// A piece of script on one line, without its `{…}`.
+#[must_use]
+pub fn without_braces(text: &str) -> String {
+    let mut out = String::new();
+    let mut inside = false;
+    for c in text.chars() {
+        match c {
+            '{' => inside = true,
+            '}' => inside = false,
+            c if !inside => out.push(c),
+            _ => {}
+        }
+    }
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Whether what lies between two syllables is the reading in braces of the first: `行{hang2}不`.
@@ -36,8 +66,7 @@ mod tests {
 
     fn words(script: &str) -> Vec<String> {
         let said = syllables(script, System::Auto).unwrap();
-        let text = |r: Range<usize>| said[r].iter().map(|s| s.text.clone()).collect::<Vec<_>>().join("");
-        written_words(script, &said).into_iter().map(text).collect()
+        written_words(script, &said).into_iter().map(|w| w.text).collect()
     }
 
     #[test]

@@ -3,12 +3,13 @@
 //!
 //! What was said is the business of `script`, and how times are written down that of `timing`.
 
-mod align;
+pub mod align;
 mod alignment;
 mod levels;
 mod nuclei;
 mod peaks;
 mod pitch;
+mod resample;
 mod sound;
 mod sounding;
 mod spectrogram;

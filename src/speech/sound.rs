@@ -1,10 +1,11 @@
 //! A recording in memory.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::OnceLock;
 
 use super::peaks::Pyramid;
-use super::{sounding, wav};
+use super::{resample, sounding, wav};
 use crate::disk::Result;
 
 /// A recording, its channels mixed into one.
@@ -64,6 +65,17 @@ impl Sound {
                 outline.between(&self.samples, first.max(0.0) as usize, last as usize)
             })
             .collect()
+    }
+
+    /// Its samples at another rate, band-limited: as they are where it is the same. Sample `i` lies at `i / rate`
+    /// seconds in both; there are round(n · `rate` / its own) of them. What passes is kept to a thousandth up to ⅞ of
+    /// half the lower rate, what that rate cannot hold is 70 dB down. Ten minutes at 48 kHz take a third of a second.
+    #[must_use]
+    pub fn resampled(&self, rate: u32) -> Cow<'_, [f32]> {
+        if rate == self.rate {
+            return Cow::Borrowed(&self.samples);
+        }
+        Cow::Owned(resample::resampled(&self.samples, self.rate, rate))
     }
 
     /// The spans that are not silence, in seconds, by rising time. The noise of the file

@@ -1,0 +1,314 @@
+//! `lianpu align`: when each syllable of a script is spoken, in a lesson or in two files.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::output_fault;
+use super::times::{Row, json, seconds, table};
+use crate::disk::{Fault, Result, read_text, write_whole};
+use crate::project::{AlignJob, Clip, Lesson};
+use crate::script::{self, Syllable, System};
+use crate::speech::{self, Alignment, Sound, Take};
+use crate::timing::{self, Format, Interval, Tier, Timing};
+
+/// Find when each syllable of a script is spoken. In a lesson the times go into timing.TextGrid; boundaries that you have
+/// set stay as they are.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The lesson; its clips that have no times of their own yet.
+    #[arg(value_name = "PROJECT", required_unless_present = "speech", conflicts_with_all = ["speech", "script", "from"])]
+    project: Option<PathBuf>,
+    /// One clip of the lesson, whatever times it has.
+    #[arg(long, requires = "project")]
+    clip: Option<String>,
+    /// A recording instead of a lesson.
+    #[arg(long, value_name = "FILE")]
+    speech: Option<PathBuf>,
+    /// What is said in it.
+    #[arg(long, value_name = "FILE", requires = "speech", required_unless_present_any = ["project", "without_script"])]
+    script: Option<PathBuf>,
+    /// How the script is written; told from the text where left out.
+    #[arg(long, value_name = "SYSTEM")]
+    from: Option<System>,
+    /// Mark syllables and pauses of a recording without knowing its words.
+    #[arg(long, conflicts_with_all = ["script", "from"])]
+    without_script: bool,
+    /// A JSON array, one object a syllable, instead of a table.
+    #[arg(long)]
+    json: bool,
+    /// Write it here instead: with --json the array, else the times in the format that the name ends in.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// Aligns and prints what was found.
+///
+/// # Errors
+/// When a file cannot be read or written, or a recording and its script cannot be brought together.
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    match (&args.project, &args.speech) {
+        (Some(project), _) => in_lesson(project, args, out),
+        (None, Some(speech)) if args.without_script => {
+            let sound = Sound::read(speech)?;
+            warn(&sound);
+            marks(&sound, args, out)
+        }
+        (None, Some(speech)) => in_files(speech, args, out),
+        (None, None) => {
+            Err(Fault::new("there is nothing to align").help("name a lesson, or --speech FILE").of_the_call())
+        }
+    }
+}
+
+fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
+    let Some(path) = &args.script else {
+        return Err(Fault::new("a recording needs its script").help("give --script FILE").of_the_call());
+    };
+    let text = read_text(path)?;
+    let syllables = script::syllables(&text, args.from.unwrap_or_default()).map_err(|f| f.at(path))?;
+    if syllables.is_empty() {
+        return Err(Fault::new("there is nothing to say in it").at(path).help("write what is said in the recording"));
+    }
+    let sound = Sound::read(speech)?;
+    warn(&sound);
+    let take = Take { sound: &sound, script: &syllables, pins: &[] };
+    let found = speech::align(&[take]).pop().unwrap_or_else(|| Err(Fault::new("nothing was found")));
+    let found = found.map_err(|f| f.at(speech))?;
+    for note in &found.notes {
+        eprintln!("note: {note}");
+    }
+    let rows: Vec<Row> = syllables.iter().zip(&found.syllables).map(|(s, f)| Row::found(s, f)).collect();
+    let timing = || tiers(&text, &syllables, &found, sound.duration());
+    give(&rows, timing, args, out)
+}
+
+fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
+    let mut lesson = Lesson::open(project)?;
+    let chosen =
+        args.clip.as_deref().map(|name| lesson.clip_named(Some(name))).transpose().map_err(Fault::of_the_call)?;
+    if args.without_script {
+        let number = chosen.map_or_else(|| lesson.clip_named(None), Ok)?;
+        let clip = &lesson.clips[number];
+        let sound = clip
+            .sound
+            .clone()
+            .ok_or_else(|| Fault::new(format!("the clip `{}` has no recording", clip.entry.name)).at(&clip.folder))?;
+        return marks(&sound, args, out);
+    }
+    if let Some(why) = lesson.read_only.clone().filter(|_| args.out.is_none()) {
+        return Err(Fault::new(format!("the times cannot be kept: {why}"))
+            .at(project)
+            .help("close it there, or give --out FILE"));
+    }
+    if lesson.is_unsaved() {
+        return Err(Fault::new("the lesson has changes that were never saved")
+            .at(project)
+            .help("open it in the studio and save or discard them"));
+    }
+    let wanted = match chosen {
+        Some(number) => vec![number],
+        None => wanted(&lesson),
+    };
+    let mut failed: Vec<(String, Fault)> = Vec::new();
+    let mut aligned = Vec::new();
+    // Clips of one face are one voice: all at once, so that they help each other.
+    for group in by_face(&lesson, &wanted) {
+        for number in &group {
+            if let Some(sound) = &lesson.clips[*number].sound {
+                warn(sound);
+            }
+        }
+        for (number, found) in AlignJob::of(&lesson, &group)?.run() {
+            let name = lesson.clips[number].entry.name.clone();
+            match found {
+                Ok(found) => {
+                    for note in &found.notes {
+                        eprintln!("note: clip {name}: {note}");
+                    }
+                    match lesson.aligned(number, &found) {
+                        Some(change) if args.out.is_none() => lesson.change(change)?,
+                        Some(_) => lesson.take_alignment(number, &found),
+                        None => {}
+                    }
+                    aligned.push(number);
+                }
+                Err(fault) => failed.push((name, fault)),
+            }
+        }
+    }
+    if args.out.is_none() {
+        lesson.save()?;
+    }
+    if args.json || args.out.is_some() {
+        let shown = if let Some(number) = chosen { vec![number] } else { spoken_clips(&lesson) };
+        let several = shown.len() > 1;
+        let rows: Vec<Row> = shown.iter().flat_map(|n| Row::of_clip(&lesson.clips[*n], several)).collect();
+        let one = shown.first().copied().filter(|_| !several);
+        if args.out.is_some() && !args.json && one.is_none() {
+            return Err(Fault::new("one file holds the times of one clip").help("name it by --clip").of_the_call());
+        }
+        let timing = || one.map(|n| lesson.clips[n].timing.clone()).unwrap_or_default();
+        give(&rows, timing, args, out)?;
+    } else {
+        for number in aligned {
+            writeln!(out, "{}", summary(&lesson.clips[number])).map_err(output_fault)?;
+        }
+    }
+    match failed.pop() {
+        None => Ok(()),
+        Some((name, fault)) => {
+            for (name, fault) in failed {
+                eprintln!("error: clip {name}: {fault}");
+            }
+            Err(fault.at(lesson.root.join("clips").join(name)))
+        }
+    }
+}
+
+/// The clips that a call without `--clip` is about. Times that somebody made are only replaced when asked for by name.
+fn wanted(lesson: &Lesson) -> Vec<usize> {
+    let mut wanted = Vec::new();
+    for number in spoken_clips(lesson) {
+        let clip = &lesson.clips[number];
+        let name = &clip.entry.name;
+        if clip.wants_alignment() {
+            wanted.push(number);
+        } else if clip.score.aligned.is_none() {
+            eprintln!("note: clip {name} has times of its own, which stay; `--clip {name}` finds them anew");
+        } else if clip.score.pins.is_empty() {
+            eprintln!("clip {name}: neither its sound nor its script has changed, its times stay");
+        } else {
+            // What an author has set since moves what lies between.
+            wanted.push(number);
+        }
+    }
+    wanted
+}
+
+fn spoken_clips(lesson: &Lesson) -> Vec<usize> {
+    let spoken = |c: &Clip| c.sound.is_some() && !c.syllables.is_empty();
+    lesson.clips.iter().enumerate().filter(|(_, c)| spoken(c)).map(|(n, _)| n).collect()
+}
+
+fn by_face(lesson: &Lesson, clips: &[usize]) -> Vec<Vec<usize>> {
+    let face = |n: usize| lesson.manifest.face_of(&lesson.clips[n].entry).map(|f| f.name.clone());
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for number in clips {
+        match groups.iter_mut().find(|g| face(g[0]) == face(*number)) {
+            Some(group) => group.push(*number),
+            None => groups.push(vec![*number]),
+        }
+    }
+    groups
+}
+
+fn summary(clip: &Clip) -> String {
+    let count = clip.syllables.len();
+    let mut line = format!("clip {}: {count} syllable{} found", clip.entry.name, if count == 1 { "" } else { "s" });
+    let doubts = clip.doubts();
+    if !doubts.is_empty() {
+        let times: Vec<String> = doubts.iter().take(5).map(|d| format!("{:.2} s", d.start)).collect();
+        let more = if doubts.len() > 5 { ", …" } else { "" };
+        line.push_str(&format!(", {} to look at: {}{more}", doubts.len(), times.join(", ")));
+    }
+    line
+}
+
+fn warn(sound: &Sound) {
+    for warning in &sound.warnings {
+        eprintln!("note: {warning}");
+    }
+}
+
+/// The tiers of an alignment outside a lesson.
+fn tiers(text: &str, syllables: &[Syllable], found: &Alignment, duration: f64) -> Timing {
+    let mut timing = Timing { duration, ..Timing::default() };
+    let mut tier = Tier::new("syllables");
+    let mut phones = Tier::new("phones");
+    for (syllable, spoken) in syllables.iter().zip(&found.syllables) {
+        tier.intervals.push(Interval::new(spoken.start, spoken.end, syllable.text.clone()));
+        phones.intervals.extend(spoken.phones.iter().map(|p| Interval::new(p.start, p.end, p.phone)));
+    }
+    let mut words = Tier::new("words");
+    for word in script::written_words(text, syllables) {
+        let (first, last) = (&tier.intervals[word.syllables.start], &tier.intervals[word.syllables.end - 1]);
+        words.intervals.push(Interval::new(first.start, last.end, word.text));
+    }
+    timing.set_tier(words);
+    timing.set_tier(tier);
+    timing.set_tier(phones);
+    timing
+}
+
+/// Writes rows or times to where they were asked for.
+fn give(rows: &[Row], timing: impl Fn() -> Timing, args: &Args, out: &mut dyn Write) -> Result<()> {
+    let text = if args.json {
+        json(rows)?
+    } else if let Some(path) = &args.out {
+        let format = Format::from_path(path).unwrap_or(Format::TextGrid);
+        timing::write(&timing(), format)
+    } else {
+        table(rows)
+    };
+    match &args.out {
+        Some(path) => write_whole(path, text.as_bytes()),
+        None => out.write_all(text.as_bytes()).map_err(output_fault),
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct Mark {
+    kind: &'static str,
+    start: f64,
+    end: f64,
+}
+
+/// Syllables and pauses without words.
+fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
+    let heard = speech::nuclei(sound);
+    if heard.syllables.is_empty() {
+        return Err(Fault::new("no voice is heard in it").help("is it the right recording?"));
+    }
+    let mut marks: Vec<Mark> = Vec::new();
+    for (kind, spans) in [("syllable", &heard.syllables), ("pause", &heard.pauses)] {
+        marks.extend(spans.iter().map(|(a, b)| Mark { kind, start: seconds(*a), end: seconds(*b) }));
+    }
+    marks.sort_by(|a, b| a.start.total_cmp(&b.start));
+    let text = if args.json {
+        json(&marks)?
+    } else if let Some(path) = &args.out {
+        let mut tier = Tier::new("syllables");
+        // A label must say something: a number can be typed over, and found again.
+        let numbered = heard.syllables.iter().enumerate();
+        tier.intervals.extend(numbered.map(|(i, (a, b))| Interval::new(*a, *b, (i + 1).to_string())));
+        let mut timing = Timing { duration: sound.duration(), ..Timing::default() };
+        timing.set_tier(tier);
+        timing::write(&timing, Format::from_path(path).unwrap_or(Format::TextGrid))
+    } else {
+        marks.iter().map(|m| format!("{:8.3} {:8.3}  {}\n", m.start, m.end, m.kind)).collect()
+    };
+    match &args.out {
+        Some(path) => write_whole(path, text.as_bytes()),
+        None => out.write_all(text.as_bytes()).map_err(output_fault),
+    }
+}
+
+/// Finds the times that a lesson lacks, in memory only, for a command that reads it; what it did is said.
+pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
+    let wanted: Vec<usize> = clips.iter().copied().filter(|n| lesson.clips[*n].wants_alignment()).collect();
+    for group in by_face(lesson, &wanted) {
+        let Ok(job) = AlignJob::of(lesson, &group) else { continue };
+        for (number, found) in job.run() {
+            let name = lesson.clips[number].entry.name.clone();
+            match found {
+                Ok(found) => {
+                    lesson.take_alignment(number, &found);
+                    eprintln!("note: the times of clip {name} were found in its sound; `lianpu align` keeps them");
+                }
+                Err(fault) => eprintln!("note: the times of clip {name} are guessed: {fault}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Roughly when each unit is said: the best way through the script in steps of 10 ms, with a beam. Its cost grows with
+//! the length of the recording, not with its square.
+
+use super::chain::Chain;
+use super::search::{Costs, Section};
+use super::units::UNITS;
+
+/// Frames in a step.
+pub const STEP: usize = 2;
+
+/// Ways that lie so far behind the best are given up. Scores are in units of the search.
+const BEAM: f32 = 250.0;
+
+/// So many places in the script are looked at once at most: half a minute of speech or more.
+const WIDEST: usize = 1024;
+
+const NEVER: f32 = f32::NEG_INFINITY;
+
+/// A place of the way: a unit, or what may lie before a syllable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    Pause,
+    Other,
+    Unit(usize),
+}
+
+/// A place and the ways into it: how many places back, and the cost.
+struct Step {
+    place: Place,
+    ways: Vec<(usize, f32)>,
+}
+
+/// For each link of the section the frames in which it begins and ends, roughly; a syllable that is not heard has no
+/// length. None where the beam lost the way.
+pub(super) fn roughly(
+    chain: &Chain,
+    rows: &dyn Fn(usize) -> usize,
+    scores: &[Vec<f32>],
+    section: &Section,
+    rate: f32,
+    costs: &Costs,
+) -> Option<Vec<(usize, usize)>> {
+    let steps = steps(chain, section, rate, costs);
+    let count = (section.to - section.from) / STEP;
+    if count == 0 {
+        return None;
+    }
+    let row_of: Vec<&[f32]> = steps
+        .iter()
+        .map(|s| match s.place {
+            Place::Pause => &scores[0][..],
+            Place::Other => &scores[1][..],
+            Place::Unit(link) => &scores[rows(link)][..],
+        })
+        .collect();
+    let mut before = vec![NEVER; steps.len()];
+    let mut now = vec![NEVER; steps.len()];
+    // The ways taken at each step, for the places in the window.
+    let mut taken: Vec<u8> = Vec::new();
+    let mut windows: Vec<(usize, usize)> = Vec::with_capacity(count);
+    // Into the first place comes everything that can begin.
+    let (mut low, mut high) = (0, 1);
+    let reach = steps.iter().flat_map(|s| s.ways.iter().map(|w| w.0)).max().unwrap_or(1);
+    for t in 0..count {
+        let frame = section.from + t * STEP;
+        let to = (high + reach).min(steps.len());
+        windows.push((low, taken.len()));
+        let mut best = NEVER;
+        for place in low..to {
+            let (mut value, mut way) = (NEVER, u8::MAX);
+            if t == 0 {
+                if place == 0 || steps[place].ways.iter().any(|w| w.0 == place + 1) {
+                    value = 0.0;
+                }
+            } else {
+                for (number, (back, cost)) in steps[place].ways.iter().enumerate() {
+                    if *back + low <= place && *back <= place {
+                        let candidate = before[place - back] + cost;
+                        if candidate > value {
+                            (value, way) = (candidate, number as u8);
+                        }
+                    }
+                }
+            }
+            let row = row_of[place];
+            value += row[frame] + row[frame + 1];
+            now[place] = value;
+            best = best.max(value);
+            taken.push(way);
+        }
+        // What is too far behind falls out at either side.
+        let alive = |v: f32| v > best - BEAM;
+        let first = (low..to).find(|p| alive(now[*p])).unwrap_or(low);
+        let mut last = (low..to).rev().find(|p| alive(now[*p])).unwrap_or(low) + 1;
+        let mut first = first;
+        while last - first > WIDEST {
+            if now[first] < now[last - 1] { first += 1 } else { last -= 1 }
+        }
+        for value in &mut now[first..last] {
+            *value -= best;
+        }
+        now[low..first].fill(NEVER);
+        now[last..to].fill(NEVER);
+        before[low..high].fill(NEVER);
+        (low, high) = (first, last);
+        std::mem::swap(&mut before, &mut now);
+    }
+    // From the end, back.
+    let ends = steps.len() - 1..steps.len();
+    let last_unit = steps.len() - 4;
+    let candidates = (steps.len() - 3..ends.end).chain([last_unit]);
+    let mut place = candidates.filter(|p| (low..high).contains(p)).max_by(|a, b| before[*a].total_cmp(&before[*b]))?;
+    if before[place] == NEVER {
+        return None;
+    }
+    let links = chain.syllables[section.first].start..chain.syllables[section.last - 1].end;
+    let mut found: Vec<Option<(usize, usize)>> = vec![None; links.len()];
+    for t in (0..count).rev() {
+        let frame = section.from + t * STEP;
+        if let Place::Unit(link) = steps[place].place {
+            let entry = found[link - links.start].get_or_insert((frame, frame + STEP));
+            entry.0 = frame;
+        }
+        let (window, at) = windows[t];
+        let way = usize::from(taken[at + place - window]);
+        if t > 0 {
+            place -= steps[place].ways.get(way)?.0;
+        }
+    }
+    // What was passed over lies where the next thing begins.
+    let mut next = section.to;
+    let mut out: Vec<(usize, usize)> = found
+        .into_iter()
+        .rev()
+        .map(|entry| {
+            let entry = entry.unwrap_or((next, next));
+            next = entry.0;
+            entry
+        })
+        .collect();
+    out.reverse();
+    Some(out)
+}
+
+fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step> {
+    let mut steps: Vec<Step> = Vec::new();
+    // The last unit of each syllable, and where the places before it begin.
+    let mut lasts: Vec<usize> = Vec::new();
+    let mut gaps: Vec<usize> = Vec::new();
+    // The logarithms of going on and of leaving, for a unit that usually lasts so long.
+    let leave = |link: usize| {
+        let usual = UNITS[usize::from(chain.links[link].unit)].usual * rate / (1000.0 / 200.0) / STEP as f32;
+        let share = 1.0 / usual.max(1.25);
+        ((1.0 - share).ln(), share.ln())
+    };
+    let mut left = 0.0;
+    for syllable in section.first..=section.last {
+        let gap = steps.len();
+        let entered = left;
+        let from_last = move |offset: usize, cost: f32, lasts: &[usize]| {
+            // One place beyond the start stands for where everything begins.
+            lasts.last().map_or((gap + offset + 1, cost), |last| (gap + offset - last, cost + entered))
+        };
+        let pause_cost = if lasts.is_empty() || syllable == section.last { 0.0 } else { -costs.pause };
+        let skipped = |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -costs.skip)).filter(|_| offset < 3);
+        let mut pause = vec![(0, 0.0), from_last(0, pause_cost, &lasts)];
+        pause.extend(skipped(0, &gaps));
+        steps.push(Step { place: Place::Pause, ways: pause });
+        let mut other = vec![(0, 0.0), from_last(1, -costs.other, &lasts), (1, -costs.other)];
+        other.extend(skipped(1, &gaps));
+        steps.push(Step { place: Place::Other, ways: other });
+        let mut pause = vec![(0, 0.0), (1, 0.0)];
+        pause.extend(skipped(2, &gaps));
+        steps.push(Step { place: Place::Pause, ways: pause });
+        if syllable == section.last {
+            break;
+        }
+        for (number, link) in chain.syllables[syllable].clone().enumerate() {
+            let at = steps.len();
+            let (stay, go) = leave(link);
+            let mut ways = vec![(0, stay)];
+            if number == 0 {
+                ways.extend([(1, 0.0), (2, 0.0), (3, 0.0), from_last(3, 0.0, &lasts)]);
+                if let Some(before) = lasts.len().checked_sub(2).map(|i| lasts[i]) {
+                    ways.push((at - before, -costs.skip - 3.0));
+                }
+            } else {
+                ways.push((1, left));
+            }
+            steps.push(Step { place: Place::Unit(link), ways });
+            left = go;
+        }
+        lasts.push(steps.len() - 1);
+        gaps.push(gap);
+    }
+    steps
+}

@@ -1,0 +1,331 @@
+//! The best way through a recording and its script: each unit has a beginning and an end, as likely as the sound between
+//! them and how long it lasts; before every syllable there may be a pause, or something that is not in the script, and a
+//! syllable may be missing. Semi-Markov Viterbi, within bands about a first rough way.
+
+use super::chain::Chain;
+use super::coarse;
+use super::lasting::Lasting;
+use super::units::{ANY, SILENCE, Unit};
+
+const NEVER: f64 = f64::NEG_INFINITY;
+
+/// What leaving the straight way costs, in logarithms of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Costs {
+    /// A pause between two syllables.
+    pub pause: f32,
+    /// Something said that is not in the script.
+    pub other: f32,
+    /// A syllable that is not heard.
+    pub skip: f32,
+}
+
+/// The shortest pause, in frames: 30 ms. A stop has a closure of its own.
+const PAUSE: usize = 6;
+
+/// The shortest thing that is said beside the script, in frames: 100 ms.
+const OTHER: usize = 20;
+
+/// The widest band that is tried, in frames to either side: 6 s.
+const WIDEST: usize = 1200;
+
+/// A stretch of sound and what is said in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Section {
+    /// The first frame.
+    pub from: usize,
+    /// One beyond the last frame.
+    pub to: usize,
+    /// The first syllable.
+    pub first: usize,
+    /// One beyond the last syllable.
+    pub last: usize,
+}
+
+/// What lies before a syllable, or after the last: something beside the script, frames.
+pub type Beside = Option<(usize, usize)>;
+
+/// The way that was found through a section.
+#[derive(Debug, Clone, Default)]
+pub struct Way {
+    /// For each link its first frame and one beyond its last; equal where its syllable is not heard.
+    pub links: Vec<(usize, usize)>,
+    /// For each syllable and the end, what is said before it that is not in the script.
+    pub beside: Vec<Beside>,
+    /// How likely it all is.
+    pub score: f64,
+}
+
+/// What a search looks at.
+pub struct Search<'a> {
+    /// The script.
+    pub chain: &'a Chain,
+    /// The scores of silence, of any voice, and of every unit of the script, frame by frame.
+    pub scores: &'a [Vec<f32>],
+    /// For each unit the row of its scores.
+    pub rows: &'a [usize],
+    /// How many times slower than usual is spoken.
+    pub rate: f32,
+    /// What leaving the way costs.
+    pub costs: Costs,
+}
+
+/// Where an end may lie: frames, both included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Band {
+    low: usize,
+    high: usize,
+}
+
+/// The best scores of reaching each frame of a band.
+struct Reached {
+    band: Band,
+    scores: Vec<f64>,
+}
+
+impl Reached {
+    fn at(&self, t: usize) -> f64 {
+        if t < self.band.low { NEVER } else { self.scores.get(t - self.band.low).copied().unwrap_or(NEVER) }
+    }
+}
+
+/// How a frame was reached across a gap.
+#[derive(Debug, Clone, Copy, Default)]
+struct Crossing {
+    /// Where the syllable before ended.
+    from: u32,
+    /// What lies beside the script, where something does.
+    beside: Option<(u32, u32)>,
+}
+
+impl Search<'_> {
+    fn row(&self, unit: Unit) -> &[f32] {
+        match unit {
+            SILENCE => &self.scores[0],
+            ANY => &self.scores[1],
+            unit => &self.scores[self.rows[usize::from(unit)]],
+        }
+    }
+
+    /// The best way through a section: `near` is a way it lies within `width` frames of; without it one is looked for.
+    pub fn way(&self, section: &Section, near: Option<&[(usize, usize)]>, width: usize) -> Way {
+        let rough = match near {
+            Some(links) => Some(links.to_vec()),
+            None => {
+                let rows = |link: usize| match self.chain.links[link].unit {
+                    ANY => 1,
+                    unit => self.rows[usize::from(unit)],
+                };
+                coarse::roughly(self.chain, &rows, self.scores, section, self.rate, &self.costs)
+            }
+        };
+        let rough = rough.unwrap_or_else(|| self.spread(section));
+        let mut width = width;
+        loop {
+            let (way, touched) = self.within(section, &rough, width);
+            // A way along the edge of its band may lie beyond it.
+            if !touched && way.score > NEVER {
+                return way;
+            }
+            if width >= WIDEST.min(section.to - section.from) {
+                // Where nothing fits, at least everything is in order.
+                return if way.score > NEVER { way } else { self.evenly(section) };
+            }
+            width *= 3;
+        }
+    }
+
+    fn evenly(&self, section: &Section) -> Way {
+        Way { links: self.spread(section), beside: vec![None; section.last - section.first + 1], score: NEVER }
+    }
+
+    /// Everything one after the other, evenly: where nothing better is known.
+    fn spread(&self, section: &Section) -> Vec<(usize, usize)> {
+        let links = self.chain.syllables[section.first].start..self.chain.syllables[section.last - 1].end;
+        let (count, length) = (links.len(), section.to - section.from);
+        (0..count).map(|i| (section.from + i * length / count, section.from + (i + 1) * length / count)).collect()
+    }
+
+    fn within(&self, section: &Section, rough: &[(usize, usize)], width: usize) -> (Way, bool) {
+        let band = |t: usize, before: Band| Band {
+            low: t.saturating_sub(width).max(section.from).max(before.low),
+            high: (t + width).min(section.to).max(before.high),
+        };
+        let first_link = self.chain.syllables[section.first].start;
+        let start = Band { low: section.from, high: section.from };
+        let mut reached = Reached { band: start, scores: vec![0.0] };
+        let mut crossings: Vec<(Band, Vec<Crossing>)> = Vec::new();
+        let mut lengths: Vec<(Band, Vec<u16>)> = Vec::new();
+        let mut skips: Vec<Vec<bool>> = Vec::new();
+        for syllable in section.first..section.last {
+            let links = self.chain.syllables[syllable].clone();
+            let begin = band(rough[links.start - first_link].0, Band { low: reached.band.low, ..start });
+            let (entered, how) = self.cross(&reached, begin, syllable == section.first, false);
+            crossings.push((begin, how));
+            let mut now = Reached { band: entered.band, scores: entered.scores.clone() };
+            for link in links.clone() {
+                let end = band(rough[link - first_link].1, now.band);
+                let last = link + 1 == links.end && syllable + 1 == self.chain.syllables.len();
+                let lasting = Lasting::of(self.chain.links[link].unit, self.rate, last);
+                let (next, how) = extend(&now, end, self.row(self.chain.links[link].unit), &lasting);
+                lengths.push((end, how));
+                now = next;
+            }
+            // A syllable that is not heard.
+            let mut skipped = vec![false; now.scores.len()];
+            for (i, (score, skipped)) in now.scores.iter_mut().zip(&mut skipped).enumerate() {
+                let without = entered.at(now.band.low + i) - f64::from(self.costs.skip);
+                if without > *score {
+                    (*score, *skipped) = (without, true);
+                }
+            }
+            skips.push(skipped);
+            reached = now;
+        }
+        let end = Band { low: section.to, high: section.to };
+        let (finished, how) = self.cross(&reached, end, section.first == section.last, true);
+        crossings.push((end, how));
+        let mut way = Way { score: finished.at(section.to), ..Way::default() };
+        if way.score == NEVER {
+            return (way, true);
+        }
+        // Back from the end.
+        let mut touched = false;
+        let edge = |t: usize, b: Band| {
+            (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to)
+        };
+        let mut t = section.to;
+        let mut link = lengths.len();
+        for number in (0..=section.last - section.first).rev() {
+            let (band, how) = &crossings[number];
+            let crossing = how[t - band.low];
+            touched |= number + first_of(section) < section.last && edge(t, *band);
+            way.beside.push(crossing.beside.map(|(a, b)| (a as usize, b as usize)));
+            t = crossing.from as usize;
+            let Some(number) = number.checked_sub(1) else { break };
+            let links = self.chain.syllables[section.first + number].len();
+            let end = lengths[link - 1].0;
+            if skips[number][t - end.low] {
+                way.links.extend(std::iter::repeat_n((t, t), links));
+                link -= links;
+                continue;
+            }
+            for _ in 0..links {
+                link -= 1;
+                let (band, how) = &lengths[link];
+                touched |= edge(t, *band);
+                let length = usize::from(how[t - band.low]);
+                way.links.push((t - length, t));
+                t -= length;
+            }
+        }
+        way.links.reverse();
+        way.beside.reverse();
+        (way, touched)
+    }
+
+    /// From the end of a syllable to the beginning of the next: straight on, over a pause, over something beside the
+    /// script, or over both.
+    fn cross(&self, before: &Reached, to: Band, first: bool, last: bool) -> (Reached, Vec<Crossing>) {
+        let silence = self.row(SILENCE);
+        let low = before.band.low;
+        let (pause, cost) = if first || last { (1, 0.0) } else { (PAUSE, f64::from(self.costs.pause)) };
+        let mut out = Vec::with_capacity(to.high + 1 - to.low);
+        let mut how = Vec::with_capacity(to.high + 1 - to.low);
+        // Sums of the scores of silence up to each frame, and the best beginnings so far.
+        let mut sum = 0.0;
+        let mut sums: Vec<f64> = Vec::with_capacity(to.high + 1 - low);
+        let (mut paused, mut paused_at) = (NEVER, 0);
+        let (mut beside, mut beside_how) = (NEVER, Crossing::default());
+        let (mut after, mut after_how) = (NEVER, Crossing::default());
+        // What was reached OTHER and PAUSE frames ago.
+        let mut quiet: Vec<(f64, u32)> = Vec::with_capacity(to.high + 1 - low);
+        let mut said: Vec<(f64, Crossing)> = Vec::with_capacity(to.high + 1 - low);
+        for t in low..=to.high {
+            sums.push(sum);
+            let i = t - low;
+            let direct = before.at(t);
+            if let Some(from) = i.checked_sub(pause) {
+                let value = before.at(low + from) - sums[from];
+                if value > paused {
+                    (paused, paused_at) = (value, low + from);
+                }
+            }
+            let over = paused + sum - cost;
+            let one = if over > direct { (over, paused_at as u32) } else { (direct, t as u32) };
+            quiet.push(one);
+            // Something beside the script has the score of any voice, which is 0.
+            if let Some(from) = i.checked_sub(OTHER) {
+                let value = quiet[from].0 - f64::from(self.costs.other);
+                if value > beside {
+                    beside = value;
+                    beside_how = Crossing { from: quiet[from].1, beside: Some(((low + from) as u32, 0)) };
+                }
+            }
+            let here = Crossing { beside: beside_how.beside.map(|b| (b.0, t as u32)), ..beside_how };
+            said.push((beside, here));
+            if let Some(from) = i.checked_sub(PAUSE) {
+                let value = said[from].0 - sums[from];
+                if value > after {
+                    (after, after_how) = (value, said[from].1);
+                }
+            }
+            let mut best = (one.0, Crossing { from: one.1, beside: None });
+            if beside > best.0 {
+                best = (beside, here);
+            }
+            if after + sum > best.0 {
+                best = (after + sum, after_how);
+            }
+            if t >= to.low {
+                out.push(best.0);
+                how.push(best.1);
+            }
+            sum += f64::from(silence.get(t).copied().unwrap_or(0.0));
+        }
+        (Reached { band: to, scores: out }, how)
+    }
+}
+
+fn first_of(section: &Section) -> usize {
+    section.first
+}
+
+/// From the beginnings of a unit to its ends: the best score of each end, and how many frames it lasts then.
+fn extend(before: &Reached, to: Band, row: &[f32], lasting: &Lasting) -> (Reached, Vec<u16>) {
+    let from = before.band.low;
+    let width = to.high + 1 - to.low;
+    // Sums within the band are small enough for f32; what came before is kept apart.
+    let base = before.scores.iter().copied().fold(NEVER, f64::max);
+    if base == NEVER {
+        return (Reached { band: to, scores: vec![NEVER; width] }, vec![0; width]);
+    }
+    let mut sums = Vec::with_capacity(to.high + 1 - from);
+    let mut sum = 0.0_f32;
+    sums.push(0.0);
+    for t in from..to.high {
+        sum += row.get(t).copied().unwrap_or(0.0);
+        sums.push(sum);
+    }
+    let entered: Vec<f32> = before.scores.iter().zip(&sums).map(|(s, c)| (s - base) as f32 - c).collect();
+    let mut best = vec![f32::NEG_INFINITY; width];
+    let mut lengths = vec![0_u16; width];
+    for (i, value) in lasting.values.iter().enumerate() {
+        let length = lasting.least + i;
+        // Ends t with a beginning t − length inside the band of beginnings.
+        let first = (from + length).max(to.low);
+        let last = (before.band.high + length).min(to.high);
+        if first > last {
+            continue;
+        }
+        let beginnings = &entered[first - length - from..=last - length - from];
+        let (ends, long) = (&mut best[first - to.low..=last - to.low], &mut lengths[first - to.low..=last - to.low]);
+        for ((b, e), l) in beginnings.iter().zip(ends).zip(long) {
+            let candidate = b + value;
+            *l = if candidate > *e { length as u16 } else { *l };
+            *e = if candidate > *e { candidate } else { *e };
+        }
+    }
+    let scores = best.iter().enumerate().map(|(i, b)| f64::from(*b + sums[to.low + i - from]) + base).collect();
+    (Reached { band: to, scores }, lengths)
+}

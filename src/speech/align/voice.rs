@@ -1,0 +1,145 @@
+//! The model made ready for one voice: the silence of its recording beside the learned one, and the means moved towards
+//! what is heard where each unit was found (MAP).
+
+use super::features::{DIMS, Features};
+use super::model::{Gaussian, Model, Terms};
+use super::units::{ANY, SILENCE, UNITS, Unit};
+
+/// What is learned counts as much as so many frames of the recording.
+const TAU: f32 = 40.0;
+
+/// A unit that was found in fewer frames is left as it is.
+const FEWEST: f32 = 3.0;
+
+/// The silence of a recording: its quietest frames, spread a little more widely than they are.
+#[must_use]
+pub fn silence(heard: &Features) -> Option<Gaussian> {
+    let count = heard.len();
+    let spread = |only: Option<&[bool]>| {
+        let (mut sum, mut square, mut number) = ([0.0_f64; DIMS], [0.0_f64; DIMS], 0.0_f64);
+        for n in 0..count {
+            if only.is_some_and(|o| !o[n]) {
+                continue;
+            }
+            number += 1.0;
+            for (d, x) in heard.frame(n).iter().enumerate() {
+                sum[d] += f64::from(*x);
+                square[d] += f64::from(*x) * f64::from(*x);
+            }
+        }
+        let mean: [f64; DIMS] = std::array::from_fn(|d| sum[d] / number.max(1.0));
+        let variance: [f64; DIMS] = std::array::from_fn(|d| square[d] / number.max(1.0) - mean[d] * mean[d]);
+        (mean, variance, number)
+    };
+    let (mean, quiet, number) = spread(Some(&heard.quiet));
+    let (_, all, _) = spread(None);
+    (number > 0.0).then(|| Gaussian {
+        weight: 0.0,
+        mean: mean.map(|m| m as f32),
+        variance: std::array::from_fn(|d| (1.5 * quiet[d]).max(0.15 * all[d]).max(1e-3) as f32),
+    })
+}
+
+/// What was heard where each unit was found: for each of its Gaussians how many frames, and their sum.
+#[derive(Debug, Clone)]
+pub struct Heard {
+    units: Vec<Vec<(f32, [f32; DIMS])>>,
+}
+
+impl Heard {
+    /// Nothing yet.
+    #[must_use]
+    pub fn nothing(model: &Model) -> Self {
+        Self { units: model.mixtures.iter().map(|m| vec![(0.0, [0.0; DIMS]); m.len()]).collect() }
+    }
+
+    /// What a recording has of each unit: `labels` has one for each frame.
+    #[must_use]
+    pub fn of(model: &Model, heard: &Features, labels: &[Unit]) -> Self {
+        let mut out = Self::nothing(model);
+        let terms: Vec<Vec<Terms>> = model.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect();
+        for (n, label) in labels.iter().enumerate() {
+            if *label == SILENCE {
+                continue;
+            }
+            let frame = heard.frame(n);
+            // All that is said is any voice too.
+            for unit in [*label, ANY] {
+                out.add(usize::from(unit), &terms[usize::from(unit)], frame);
+                if *label == ANY {
+                    break;
+                }
+            }
+        }
+        out
+    }
+
+    fn add(&mut self, unit: usize, terms: &[Terms], frame: &[f32]) {
+        let mut values = [0.0_f32; 64];
+        let values = &mut values[..terms.len().min(64)];
+        let mut best = f32::NEG_INFINITY;
+        for (value, term) in values.iter_mut().zip(terms) {
+            *value = term.at(frame);
+            best = best.max(*value);
+        }
+        let mut sum = 0.0;
+        for value in values.iter_mut() {
+            // What is e⁻¹² as likely has no part in it.
+            *value = if *value > best - 12.0 { (*value - best).exp() } else { 0.0 };
+            sum += *value;
+        }
+        for (value, (number, total)) in values.iter().zip(&mut self.units[unit]) {
+            let share = value / sum;
+            if share > 0.0 {
+                *number += share;
+                for (t, x) in total.iter_mut().zip(frame) {
+                    *t += share * x;
+                }
+            }
+        }
+    }
+
+    /// Together with what was heard elsewhere.
+    pub fn and(&mut self, other: &Self, times: f32) {
+        for (mine, theirs) in self.units.iter_mut().flatten().zip(other.units.iter().flatten()) {
+            mine.0 += times * theirs.0;
+            for (m, t) in mine.1.iter_mut().zip(&theirs.1) {
+                *m += times * t;
+            }
+        }
+    }
+
+    /// The model with its means moved towards what was heard.
+    #[must_use]
+    pub fn moved(&self, model: &Model) -> Model {
+        let mixtures = model.mixtures.iter().zip(&self.units).map(|(mixture, heard)| {
+            let frames: f32 = heard.iter().map(|h| h.0).sum();
+            if frames < FEWEST {
+                return mixture.clone();
+            }
+            let moved = |(gaussian, (number, sum)): (&Gaussian, &(f32, [f32; DIMS]))| Gaussian {
+                mean: std::array::from_fn(|d| (TAU * gaussian.mean[d] + sum[d]) / (TAU + number)),
+                ..gaussian.clone()
+            };
+            mixture.iter().zip(heard).map(moved).collect()
+        });
+        Model { mixtures: mixtures.collect() }
+    }
+}
+
+/// Terms of silence, of any voice, and of each unit asked for; and for each unit its row.
+#[must_use]
+pub fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<Vec<Terms>>, Vec<usize>) {
+    let mut rows = vec![1; UNITS.len()];
+    rows[usize::from(SILENCE)] = 0;
+    let terms = |unit: Unit| -> Vec<Terms> { model.of(unit).iter().map(Terms::of).collect() };
+    let mut out = vec![terms(SILENCE), terms(ANY)];
+    out[0].extend(silence.map(Terms::of));
+    for unit in units {
+        if !matches!(*unit, SILENCE | ANY) {
+            rows[usize::from(*unit)] = out.len();
+            out.push(terms(*unit));
+        }
+    }
+    (out, rows)
+}
