@@ -179,7 +179,7 @@ impl Clip {
     }
 
     /// Words in time: what the script writes without a space or mark between.
-    fn words(&self, syllables: &Tier) -> Tier {
+    pub(super) fn words(&self, syllables: &Tier) -> Tier {
         let mut tier = Tier::new("words");
         for word in script::written_words(&self.script, &self.syllables) {
             let at = &syllables.intervals;

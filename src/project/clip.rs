@@ -72,7 +72,9 @@ pub struct Clip {
     /// What a hand had set, where the script has changed since: by the syllables of the script as it is now.
     pub(super) carried: Vec<Pin>,
     /// The script's own syllables, before labels gave other readings.
-    plain: Vec<Syllable>,
+    pub(super) plain: Vec<Syllable>,
+    /// The script as its file has it, or as the labels of the timing gave it.
+    pub(super) kept_script: String,
     /// Length of the sound in seconds, 0 without one.
     sound_seconds: f64,
 }
@@ -80,6 +82,7 @@ pub struct Clip {
 /// What the files that saving writes looked like when they were last read or written; none where there was none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Seen {
+    pub(super) script: Option<u32>,
     pub(super) timing: Option<u32>,
     pub(super) score: Option<u32>,
 }
@@ -118,12 +121,14 @@ impl Clip {
             seen: Seen::default(),
             carried: Vec::new(),
             plain: Vec::new(),
+            kept_script: String::new(),
             sound_seconds: 0.0,
         };
         if let Some((path, script)) = text("script.txt")? {
             let system = entry.script_system.unwrap_or(System::Auto);
             clip.plain = script::syllables(&script, system).map_err(|f| f.at(&path))?;
             clip.script = script;
+            clip.seen.script = super::save::checksum(&path);
         }
         if let Some(path) = &clip.sound_path {
             let sound = Sound::read(path)?;
@@ -159,6 +164,7 @@ impl Clip {
             None => clip.guess(),
         }
         clip.read_labels();
+        clip.kept_script.clone_from(&clip.script);
         if clip.duration() <= 0.0 {
             return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
                 .at(&folder)

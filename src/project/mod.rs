@@ -15,6 +15,7 @@ mod journal;
 mod label;
 mod lesson;
 mod manifest;
+mod said;
 mod save;
 
 pub use align::AlignJob;
@@ -27,3 +28,4 @@ pub use history::History;
 pub use lesson::{Lesson, projects_in};
 pub(crate) use manifest::check_output;
 pub use manifest::{ClipEntry, FaceEntry, LayerEntry, MANIFEST, Manifest, Output};
+pub use said::Said;
