@@ -150,7 +150,12 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("P", Tone)], "", "the pitch of the voice, or not"),
     row(&[Timeline], &[("t", Tap)], "tap", "tap the syllables along with the sound"),
     row(&[Timeline], &[("m", Places)], "mark", "mark where syllables are heard; Enter types words onto them"),
-    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, edited stretch or reading; words for marked places"),
+    row(
+        &[Timeline],
+        &[("Enter", Edit)],
+        "change",
+        "change the key, edited stretch or reading; words for marked places",
+    ),
     row(&[Timeline], &[("a", Add)], "add", "add a key to the lane"),
     row(&[Timeline], &[("(", MoveKey(-1)), (")", MoveKey(1))], "", "move the key one frame back, on"),
     row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),
@@ -374,7 +379,9 @@ mod tests {
 
     #[test]
     fn no_key_asks_for_two_things_in_one_place() {
-        for place in [Projects, Lesson, Timeline, Doubting, Tapping, Facing, Player, Helping, Prompt, Confirm, Exporting] {
+        for place in
+            [Projects, Lesson, Timeline, Doubting, Tapping, Facing, Player, Helping, Prompt, Confirm, Exporting]
+        {
             let mut keys: Vec<&str> =
                 TABLE.iter().filter(|r| r.places.contains(&place)).flat_map(|r| r.keys).map(|(k, _)| *k).collect();
             keys.sort_unstable();
