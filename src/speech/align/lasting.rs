@@ -39,4 +39,10 @@ impl Lasting {
         };
         Self { least, values: (least..=most).map(value).collect() }
     }
+
+    /// For so many frames; far less than anything where they are too few or too many.
+    #[must_use]
+    pub fn at(&self, frames: usize) -> f32 {
+        frames.checked_sub(self.least).and_then(|i| self.values.get(i)).copied().unwrap_or(-60.0)
+    }
 }
