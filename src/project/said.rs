@@ -88,8 +88,12 @@ impl Lesson {
             && next.start < last.1 - 1e-6
         {
             let room = places.iter().filter(|p| p.1 <= next.start + 1e-6).count();
-            return Err(Fault::new(format!("there is room for {} before {}", counted(room, "syllable"), syllable.text))
-                .help("type fewer"));
+            return Err(Fault::new(format!(
+                "there is room for {} before {}",
+                counted(room, "syllable"),
+                syllable.text
+            ))
+            .help("type fewer"));
         }
         let mut later = clip.clone();
         later.script = inserted(clip, at, &text);

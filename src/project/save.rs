@@ -120,21 +120,21 @@ impl Clip {
             return Ok(None);
         }
         let path = self.folder.join("script.txt");
-        let written = if self.script.trim().is_empty() && self.seen.script.is_some() && checksum(&path) == self.seen.script
-        {
-            remove(&path)?;
-            self.seen.script = None;
-            // Times of nothing; only what this program wrote, or has read as it is.
-            let times = self.folder.join("timing.TextGrid");
-            if self.intervals().is_empty() && self.seen.timing.is_some() && checksum(&times) == self.seen.timing {
-                remove(&times)?;
-                self.seen.timing = None;
-            }
-            Some(path)
-        } else {
-            let line = format!("{}\n", self.script.trim_end());
-            write_changed(path, &line, &mut self.seen.script)?
-        };
+        let written =
+            if self.script.trim().is_empty() && self.seen.script.is_some() && checksum(&path) == self.seen.script {
+                remove(&path)?;
+                self.seen.script = None;
+                // Times of nothing; only what this program wrote, or has read as it is.
+                let times = self.folder.join("timing.TextGrid");
+                if self.intervals().is_empty() && self.seen.timing.is_some() && checksum(&times) == self.seen.timing {
+                    remove(&times)?;
+                    self.seen.timing = None;
+                }
+                Some(path)
+            } else {
+                let line = format!("{}\n", self.script.trim_end());
+                write_changed(path, &line, &mut self.seen.script)?
+            };
         self.kept_script.clone_from(&self.script);
         Ok(written)
     }

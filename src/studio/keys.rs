@@ -142,15 +142,15 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("<", End(Nudge::Frames(-1))), (">", End(Nudge::Frames(1)))], "", "the same by one frame"),
     row(&[Timeline], &[("G", Gap(-1)), ("g", Gap(1))], "", "10 ms of pause before, after the syllable"),
     row(&[Timeline], &[("r", Reading)], "read", "set how the syllable is read"),
-    row(&[Lesson], &[("A", Align)], "align", "find the times of the clip's syllables in its sound"),
-    row(&[Timeline], &[("A", Align)], "align", "find the syllables' times in the sound (those set by hand stay)"),
+    row(&[Lesson], &[("A", Align)], "align", "find the times of the clip in its sound"),
+    row(&[Timeline], &[("A", Align)], "align", "find the times in the sound (those set by hand stay)"),
     row(&[Timeline], &[("d", Doubt(1)), ("D", Doubt(-1))], "look at", "next, previous place to look at (!)"),
     row(&[Timeline], &[("o", Doubts)], "", "list the places to look at"),
     row(&[Timeline], &[("S", SoundView)], "", "the sound as a wave, as a spectrogram, or both"),
     row(&[Timeline], &[("P", Tone)], "", "the pitch of the voice, or not"),
     row(&[Timeline], &[("t", Tap)], "tap", "tap the syllables along with the sound"),
-    row(&[Timeline], &[("m", Places)], "mark", "mark where syllables are heard; Enter types words onto them"),
-    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, edited stretch or reading; words for marked places"),
+    row(&[Timeline], &[("m", Places)], "mark", "mark where syllables are heard; Enter types words"),
+    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, stretch or reading; type words (○)"),
     row(&[Timeline], &[("a", Add)], "add", "add a key to the lane"),
     row(&[Timeline], &[("(", MoveKey(-1)), (")", MoveKey(1))], "", "move the key one frame back, on"),
     row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),
@@ -374,7 +374,9 @@ mod tests {
 
     #[test]
     fn no_key_asks_for_two_things_in_one_place() {
-        for place in [Projects, Lesson, Timeline, Doubting, Tapping, Facing, Player, Helping, Prompt, Confirm, Exporting] {
+        for place in
+            [Projects, Lesson, Timeline, Doubting, Tapping, Facing, Player, Helping, Prompt, Confirm, Exporting]
+        {
             let mut keys: Vec<&str> =
                 TABLE.iter().filter(|r| r.places.contains(&place)).flat_map(|r| r.keys).map(|(k, _)| *k).collect();
             keys.sort_unstable();
