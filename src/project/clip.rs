@@ -326,7 +326,7 @@ impl Clip {
             let times = phones.and_then(|tier| phones_of(tier, syllable, interval)).unwrap_or_default();
             let starts = script::onsets_in_phones(syllable, &times, onsets);
             let shapes = starts.into_iter().zip(syllable.shapes.iter().copied()).collect();
-            Spoken { start: interval.start, end: interval.end, shapes }
+            Spoken { start: interval.start, end: interval.end, shapes, exact: !times.is_empty() }
         };
         self.syllables.iter().zip(self.intervals()).map(spoken).collect()
     }
@@ -442,7 +442,7 @@ fn of_shapes(tier: &Tier) -> Vec<Spoken> {
             let (start, end) = (run.first()?.start, run.last()?.end);
             let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
             let shapes = run.iter().filter_map(|i| shape_of(&i.label).map(|s| (share(i.start), s))).collect();
-            Some(Spoken { start, end, shapes })
+            Some(Spoken { start, end, shapes, exact: true })
         })
         .collect()
 }

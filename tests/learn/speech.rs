@@ -42,13 +42,14 @@ fn main() {
     let corpus = PathBuf::from(&arguments[0]);
     let copies = setting("COPIES", 2.0) as usize;
     let mut lessons = Vec::new();
-    for folder in ["zh", "en"] {
+    let folders = std::env::var("FOLDERS").unwrap_or_else(|_| "zh en".into());
+    for folder in folders.split(' ') {
         let told = corpus::read(&corpus.join(folder));
         println!("{folder}: {} recordings", told.len());
         for (number, told) in told.iter().enumerate() {
             for copy in 0..copies {
                 let mut chance = Chance((number * 8 + copy) as u64 * 2 + u64::from(folder == "en"));
-                let changed = corpus::changed(&told.sound, &mut chance, 60.0, setting("NOISIEST", 4.0));
+                let changed = corpus::changed(told, &mut chance, 60.0, setting("NOISIEST", 4.0));
                 lessons.push(corpus::lesson(told, &changed));
             }
         }

@@ -28,10 +28,12 @@ use super::{Alignment, SpokenPhone, SpokenSyllable, Take};
 use crate::disk::{Fault, Result};
 
 /// How much the sound counts: frames overlap and follow each other, and say much the same.
-const SOUND: f32 = 0.2;
+static SOUND: std::sync::LazyLock<f32> =
+    std::sync::LazyLock::new(|| std::env::var("SOUND").map_or(0.2, |s| s.parse().unwrap()));
 
 /// Passes after the first, each with the model moved towards what the one before found.
-const PASSES: usize = 3;
+static PASSES: std::sync::LazyLock<usize> =
+    std::sync::LazyLock::new(|| std::env::var("PASSES").map_or(3, |s| s.parse().unwrap()));
 
 /// What leaving the way costs.
 const COSTS: Costs = Costs { pause: 6.0, other: 40.0, skip: 40.0 };
@@ -59,7 +61,7 @@ pub fn align(takes: &[Take<'_>]) -> Vec<Result<Alignment>> {
 pub fn align_with(model: &Model, take: &Take<'_>) -> Result<Alignment> {
     let mut work = Work::of(take)?;
     work.pass(model, WIDE);
-    for _ in 0..PASSES {
+    for _ in 0..*PASSES {
         let heard = Heard::of(model, &work.heard, &work.labels());
         work.pass(&heard.moved(model), NARROW);
     }
@@ -103,7 +105,7 @@ impl Work {
         let (any, rest) = rest.split_at_mut(1);
         for row in silence.iter_mut().chain(rest) {
             for (value, any) in row.iter_mut().zip(&any[0]) {
-                *value = SOUND * (*value - any);
+                *value = *SOUND * (*value - any);
             }
         }
         any[0].fill(0.0);

@@ -98,7 +98,7 @@ fn held(model: &Model, folder: &Path) {
         if let Some(a) = run(model, &told.name, &told.sound, &told.script) {
             clean.add(&told.times, &times(&a));
         }
-        let other = corpus::changed(&told.sound, &mut Chance(77_000 + number as u64), 60.0, 15.0);
+        let other = corpus::changed(told, &mut Chance(77_000 + number as u64), 60.0, 15.0);
         if let Some(a) = run(model, &told.name, &Sound::new(16_000, other.samples), &told.script) {
             let truth: Vec<_> = told.times.iter().map(|t| (t.0 * other.slower, t.1 * other.slower)).collect();
             changed.add(&truth, &times(&a));
@@ -147,6 +147,20 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
         let script = script(&labels, System::Hanyu);
         let Some(a) = run(model, &file, &sound, &script) else { continue };
         errors.add(&truth.iter().map(|t| (t.1, t.2)).collect::<Vec<_>>(), &times(&a));
+        if std::env::var("SHOW").is_ok() {
+            for (t, s) in truth.iter().zip(&a.syllables) {
+                let phones: Vec<String> = s.phones.iter().map(|p| format!("{} {:.3}", p.phone, p.start)).collect();
+                println!(
+                    "{file} {:9} {:.3} {:+4.0}   {:.3} {:+4.0}  {}",
+                    t.0,
+                    t.1,
+                    (s.start - t.1) * 1000.0,
+                    t.2,
+                    (s.end - t.2) * 1000.0,
+                    phones.join(", ")
+                );
+            }
+        }
         let found: Vec<f64> = a
             .syllables
             .iter()
