@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lianpu::script::{Syllable, System, syllables};
-use lianpu::speech::align::works;
 use lianpu::speech::align::model::Model;
+use lianpu::speech::align::works;
 use lianpu::speech::{Alignment, Sound, Take};
 
 use crate::chance::Chance;
@@ -65,7 +65,13 @@ fn run(model: &Model, name: &str, sound: &Sound, script: &[Syllable]) -> Option<
         Ok(work) => {
             let a = work.alignment(model);
             if std::env::var("INFO").is_ok() {
-                println!("{name}: snr {:.1} fit {:.3} sense {:.2} missing {}", work.heard.snr, work.fit, work.sense, a.syllables.iter().filter(|s| !s.heard).count());
+                println!(
+                    "{name}: snr {:.1} fit {:.3} sense {:.2} missing {}",
+                    work.heard.snr,
+                    work.fit,
+                    work.sense,
+                    a.syllables.iter().filter(|s| !s.heard).count()
+                );
             }
             for note in &a.notes {
                 println!("{name}: {note}");
@@ -342,11 +348,19 @@ pub fn parted(model: &Model, folder: &Path) {
             if script.is_empty() {
                 continue;
             }
-            let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap() else { continue };
+            let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap() else {
+                continue;
+            };
             let a = work.alignment(model);
             fits[kind].push(work.sense);
             if std::env::var("INFO").is_ok() {
-                println!("kind {kind} count {} fit {:.2} sense {:.2} missing {:.2}", script.len(), work.fit, work.sense, a.syllables.iter().filter(|s| !s.heard).count() as f64 / script.len() as f64);
+                println!(
+                    "kind {kind} count {} fit {:.2} sense {:.2} missing {:.2}",
+                    script.len(),
+                    work.fit,
+                    work.sense,
+                    a.syllables.iter().filter(|s| !s.heard).count() as f64 / script.len() as f64
+                );
             }
             if a.notes.contains(&lianpu::speech::Note::Doubtful) {
                 doubted[kind] += 1;
@@ -357,19 +371,32 @@ pub fn parted(model: &Model, folder: &Path) {
                 _ => false,
             });
             where_off[kind] += usize::from(right);
-            let any = a.notes.iter().any(|n| !matches!(n, lianpu::speech::Note::Noisy { .. } | lianpu::speech::Note::Doubtful));
+            let any = a
+                .notes
+                .iter()
+                .any(|n| !matches!(n, lianpu::speech::Note::Noisy { .. } | lianpu::speech::Note::Doubtful));
             noted[kind] += usize::from(any);
             quiet[kind] += 1;
             let (t, f): (Vec<_>, Vec<_>) = truth.iter().zip(times(&a)).filter_map(|(t, f)| Some(((*t)?, f))).unzip();
             errors[kind].add(&t, &f);
         }
     }
-    for (kind, name) in ["right script", "word left out of it", "word too many in it", "another script"].iter().enumerate() {
+    for (kind, name) in
+        ["right script", "word left out of it", "word too many in it", "another script"].iter().enumerate()
+    {
         fits[kind].sort_by(f32::total_cmp);
         let of = |q: f64| fits[kind][((fits[kind].len() - 1) as f64 * q) as usize];
         println!(
             "{name}: of {} parted {} (right place {}) doubted {}; fit {:.2} {:.2} {:.2} {:.2} {:.2}",
-            quiet[kind], noted[kind], where_off[kind], doubted[kind], of(0.0), of(0.02), of(0.5), of(0.98), of(1.0)
+            quiet[kind],
+            noted[kind],
+            where_off[kind],
+            doubted[kind],
+            of(0.0),
+            of(0.02),
+            of(0.5),
+            of(0.98),
+            of(1.0)
         );
         errors[kind].print(name);
     }
@@ -377,9 +404,17 @@ pub fn parted(model: &Model, folder: &Path) {
 
 /// Every recording of a folder with the scripts of the others.
 fn wrong(model: &Model, folder: &Path) {
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().flatten().map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "lab")).collect();
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .flatten()
+        .map(|e| e.path())
+        .filter(|p| p.extension().is_some_and(|e| e == "lab"))
+        .collect();
     files.sort();
-    let scripts: Vec<Vec<Syllable>> = files.iter().map(|f| syllables(&std::fs::read_to_string(f).unwrap(), System::Hanyu).unwrap_or_default()).collect();
+    let scripts: Vec<Vec<Syllable>> = files
+        .iter()
+        .map(|f| syllables(&std::fs::read_to_string(f).unwrap(), System::Hanyu).unwrap_or_default())
+        .collect();
     for (n, file) in files.iter().enumerate() {
         let Ok(sound) = Sound::read(&file.with_extension("wav")) else { continue };
         for (other, script) in scripts.iter().enumerate() {
@@ -396,7 +431,9 @@ pub fn table(sure: &[f64], right: &[bool]) {
     if std::env::var("TABLE").is_err() {
         return;
     }
-    for (low, high) in [(0.0, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01)] {
+    for (low, high) in
+        [(0.0, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01)]
+    {
         let own: Vec<(f64, bool)> =
             sure.iter().copied().zip(right.iter().copied()).filter(|(s, _)| (low..high).contains(s)).collect();
         let n = own.len().max(1) as f64;
