@@ -11,6 +11,7 @@ mod nuclei;
 mod peaks;
 mod pitch;
 mod resample;
+mod sonority;
 mod sound;
 mod sounding;
 mod spectrogram;
