@@ -5,6 +5,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs, reason = "a tool of the authors")]
 
+#[path = "speech/calibrate.rs"]
+mod calibrate;
 #[path = "faces/chance.rs"]
 mod chance;
 #[path = "speech/corpus.rs"]
@@ -18,6 +20,7 @@ mod mixture;
 
 use std::path::{Path, PathBuf};
 
+use lianpu::speech::align::confidence::SIGNS;
 use lianpu::speech::align::features::DIMS;
 use lianpu::speech::align::model::{Model, Terms};
 use lianpu::speech::align::units::{ANY, SILENCE, UNITS, Unit};
@@ -39,16 +42,23 @@ fn main() {
         measure::all(&model, Path::new(&arguments[1]), &arguments[2..]);
         return;
     }
+    if arguments[0] == "--calibrate" {
+        let mut model = Model::read(&std::fs::read(&out).unwrap()).unwrap();
+        model.confidence = calibrate::calibrate(&model, &arguments[1..]);
+        std::fs::write(out, model.write()).unwrap();
+        return;
+    }
     let corpus = PathBuf::from(&arguments[0]);
     let copies = setting("COPIES", 2.0) as usize;
     let mut lessons = Vec::new();
-    for folder in ["zh", "en"] {
+    let folders = std::env::var("FOLDERS").unwrap_or_else(|_| "zh en".into());
+    for folder in folders.split(' ') {
         let told = corpus::read(&corpus.join(folder));
         println!("{folder}: {} recordings", told.len());
         for (number, told) in told.iter().enumerate() {
             for copy in 0..copies {
                 let mut chance = Chance((number * 8 + copy) as u64 * 2 + u64::from(folder == "en"));
-                let changed = corpus::changed(&told.sound, &mut chance, 60.0, setting("NOISIEST", 4.0));
+                let changed = corpus::changed(told, &mut chance, 60.0, setting("NOISIEST", 4.0));
                 lessons.push(corpus::lesson(told, &changed));
             }
         }
@@ -99,7 +109,7 @@ fn learn(lessons: &[Lesson]) -> Model {
                 mixture::mixture(frames, most, &floor)
             })
             .collect();
-        model = Some(Model { mixtures });
+        model = Some(Model { mixtures, confidence: [0.0; SIGNS] });
         println!("round {round}: {} frames", all.len());
     }
     model.unwrap()

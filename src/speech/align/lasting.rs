@@ -5,7 +5,8 @@ use super::units::{UNITS, Unit};
 
 /// How much the times count against the sound: frames that follow each other say much the same, times say something
 /// new.
-const WEIGHT: f32 = 3.0;
+static WEIGHT: std::sync::LazyLock<f32> =
+    std::sync::LazyLock::new(|| std::env::var("WEIGHT").map_or(3.0, |s| s.parse().unwrap()));
 
 /// The last syllable before a pause is drawn out by so much.
 const DRAWN: f32 = 1.35;
@@ -34,8 +35,14 @@ impl Lasting {
         let most = ((usual * (3.2 * kind.spread).exp() / frame) as usize).clamp(least + 3, LONGEST);
         let value = |frames: usize| {
             let z = ((frames as f32 * frame).ln() - usual.ln()) / kind.spread;
-            WEIGHT * (-0.5 * z * z - kind.spread.ln() - 0.9)
+            *WEIGHT * (-0.5 * z * z - kind.spread.ln() - 0.9)
         };
         Self { least, values: (least..=most).map(value).collect() }
+    }
+
+    /// For so many frames; far less than anything where they are too few or too many.
+    #[must_use]
+    pub fn at(&self, frames: usize) -> f32 {
+        frames.checked_sub(self.least).and_then(|i| self.values.get(i)).copied().unwrap_or(-60.0)
     }
 }

@@ -80,7 +80,8 @@ pub struct Changed {
 }
 
 /// Another vocal tract, room, microphone and noise.
-pub fn changed(sound: &Sound, chance: &mut Chance, quietest: f64, noisiest: f64) -> Changed {
+pub fn changed(told: &Told, chance: &mut Chance, quietest: f64, noisiest: f64) -> Changed {
+    let sound = &livelier(told, chance);
     let factors = [0.88, 0.92, 0.96, 1.0, 1.0, 1.04, 1.08, 1.13];
     let factor = factors[chance.below(factors.len())];
     let rate = (f64::from(sound.rate) * factor).round() as u32;
@@ -95,7 +96,7 @@ pub fn changed(sound: &Sound, chance: &mut Chance, quietest: f64, noisiest: f64)
         samples[i] += tilt * samples[i - 1];
     }
     // A room: a handful of echoes that die away.
-    if chance.below(10) < 4 {
+    if chance.share() < crate::setting("ROOMS", 0.1) {
         let (loud, long) = (chance.between(0.05, 0.35), chance.between(0.015, 0.06));
         let echoes: Vec<(usize, f32)> = (0..24)
             .map(|_| {
@@ -120,6 +121,53 @@ pub fn changed(sound: &Sound, chance: &mut Chance, quietest: f64, noisiest: f64)
     };
     noise(&mut samples, level * 10_f64.powf(-snr / 20.0), chance);
     Changed { samples, slower }
+}
+
+/// Syllables of different loudness that die away before a pause or a closure: a synthesiser speaks them alike and stops
+/// at once.
+fn livelier(told: &Told, chance: &mut Chance) -> Sound {
+    let rate = f64::from(told.sound.rate);
+    let mut samples = told.sound.samples.clone();
+    let (louder, dying, deep) =
+        (crate::setting("LOUDER", 4.0), crate::setting("DYING", 0.07), crate::setting("DEEP", 35.0));
+    let depth = chance.between(0.0, deep);
+    for (number, (start, end)) in told.times.iter().enumerate() {
+        let gap = told.times.get(number + 1).map_or(1.0, |n| n.0 - end);
+        let stop = told.script.get(number + 1).is_none_or(|s| {
+            matches!(
+                segments(s).first().copied().unwrap_or(""),
+                "b" | "p"
+                    | "d"
+                    | "t"
+                    | "g"
+                    | "k"
+                    | "j"
+                    | "q"
+                    | "zh"
+                    | "ch"
+                    | "z"
+                    | "c"
+                    | "P"
+                    | "B"
+                    | "T"
+                    | "D"
+                    | "K"
+                    | "G"
+                    | "CH"
+                    | "JH"
+            )
+        });
+        let gain = chance.between(-louder, louder);
+        let long = chance.between(0.01, dying);
+        let dies = gap > 0.08 || stop;
+        let (from, to) = ((start * rate) as usize, ((end * rate) as usize).min(samples.len()));
+        for (i, sample) in samples[from.min(to)..to].iter_mut().enumerate() {
+            let left = end - start - i as f64 / rate;
+            let fade = if dies && left < long { depth * (1.0 - left / long) } else { 0.0 };
+            *sample *= 10_f64.powf((gain - fade) / 20.0) as f32;
+        }
+    }
+    Sound::new(told.sound.rate, samples)
 }
 
 /// Adds noise of some colour at a level.
