@@ -16,6 +16,7 @@ mod peaks;
 mod pitch;
 mod read;
 mod resample;
+mod sonority;
 mod sound;
 mod sounding;
 mod spectrogram;

@@ -6,6 +6,7 @@
 mod confidence;
 mod edits;
 mod errors;
+mod nuclei;
 mod parting;
 mod recordings;
 #[path = "../test_data/mod.rs"]
