@@ -114,7 +114,12 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
     for row in rows(&folder.join("phones.csv")) {
         if which(&row[0]) {
             let entry = files.entry(row[0].clone()).or_default();
-            entry.push((format!("{} {}", row[1], row[2]), row[3].clone(), row[4].parse().unwrap(), row[5].parse().unwrap()));
+            entry.push((
+                format!("{} {}", row[1], row[2]),
+                row[3].clone(),
+                row[4].parse().unwrap(),
+                row[5].parse().unwrap(),
+            ));
         }
     }
     let (mut errors, mut lips) = (Errors::default(), Errors::default());
@@ -168,8 +173,7 @@ fn real(model: &Model, folder: &Path) {
         let found = times(&a);
         let mut errors = Errors::default();
         if name.starts_with("neural") {
-            let mut off: Vec<f64> =
-                times_of.iter().zip(&found).flat_map(|(t, f)| [f.0 - t.0, f.1 - t.1]).collect();
+            let mut off: Vec<f64> = times_of.iter().zip(&found).flat_map(|(t, f)| [f.0 - t.0, f.1 - t.1]).collect();
             off.sort_by(f64::total_cmp);
             let middle = off[off.len() / 2];
             println!("{name}: offset {:.0} ms", middle * 1000.0);
@@ -180,7 +184,15 @@ fn real(model: &Model, folder: &Path) {
         errors.print(name);
         if std::env::var("SHOW").is_ok() {
             for ((l, t), f) in labels.iter().zip(&times_of).zip(&found) {
-                println!("{l:8} {:.2} {:.3} {:+.0}   {:.2} {:.3} {:+.0}", t.0, f.0, (f.0 - t.0) * 1000.0, t.1, f.1, (f.1 - t.1) * 1000.0);
+                println!(
+                    "{l:8} {:.2} {:.3} {:+.0}   {:.2} {:.3} {:+.0}",
+                    t.0,
+                    f.0,
+                    (f.0 - t.0) * 1000.0,
+                    t.1,
+                    f.1,
+                    (f.1 - t.1) * 1000.0
+                );
             }
         }
     }
@@ -202,11 +214,9 @@ fn real(model: &Model, folder: &Path) {
 
 fn english(model: &Model, folder: &Path) {
     let mut errors = Errors::default();
-    for (wav, grid) in [
-        ("mary", "mary"),
-        ("bobby", "bobby_words"),
-        ("the_north_wind_and_the_sun", "the_north_wind_and_the_sun"),
-    ] {
+    for (wav, grid) in
+        [("mary", "mary"), ("bobby", "bobby_words"), ("the_north_wind_and_the_sun", "the_north_wind_and_the_sun")]
+    {
         let text = std::fs::read_to_string(folder.join(format!("{grid}.TextGrid"))).unwrap();
         let words = words(&text);
         if words.is_empty() {
@@ -219,7 +229,15 @@ fn english(model: &Model, folder: &Path) {
         let truth: Vec<(f64, f64)> = words.iter().map(|w| (w.1, w.2)).collect();
         if std::env::var("SHOW").is_ok() {
             for ((l, t), f) in labels.iter().zip(&truth).zip(times(&a)) {
-                println!("{l:8} {:.3} {:.3} {:+.0}   {:.3} {:.3} {:+.0}", t.0, f.0, (f.0 - t.0) * 1000.0, t.1, f.1, (f.1 - t.1) * 1000.0);
+                println!(
+                    "{l:8} {:.3} {:.3} {:+.0}   {:.3} {:.3} {:+.0}",
+                    t.0,
+                    f.0,
+                    (f.0 - t.0) * 1000.0,
+                    t.1,
+                    f.1,
+                    (f.1 - t.1) * 1000.0
+                );
             }
         }
         errors.add(&truth, &times(&a));
