@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn any_samples_at_any_rate_have_a_quality() {
         for rate in [1, 999, 1_000, 8_000, 768_000] {
-            for samples in [vec![1.0; 2_000], vec![0.0; 3], vec![-1.0, 1.0].repeat(4_000)] {
+            for samples in [vec![1.0; 2_000], vec![0.0; 3], [-1.0, 1.0].repeat(4_000)] {
                 let quality = Sound::new(rate, samples).quality();
                 assert!(quality.snr_db >= 0.0 && quality.clipped <= 1.0 && !quality.remarks().is_empty());
             }
