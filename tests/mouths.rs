@@ -43,6 +43,7 @@ fn lips_close_for_every_b_p_m_f_and_for_nothing_else() {
             .iter()
             .zip(&tier.intervals)
             .map(|(s, i)| Spoken {
+                exact: false,
                 start: i.start,
                 end: i.end,
                 shapes: onsets(s, OnsetPreset::Measured).into_iter().zip(s.shapes.iter().copied()).collect(),
@@ -90,7 +91,7 @@ fn fast_speech_does_not_flap() {
         let start = 0.2 + 0.1 * f64::from(i);
         let shapes =
             if i % 2 == 0 { vec![(0.0, MouthShape::M), (0.464, MouthShape::A)] } else { vec![(0.0, MouthShape::A)] };
-        spoken.push(Spoken { start, end: start + 0.1, shapes });
+        spoken.push(Spoken { start, end: start + 0.1, shapes, exact: false });
     }
     let line = timeline(&spoken, 2.6);
     let opening = |t: f64| line.mouth(t).0.opening();

@@ -467,7 +467,7 @@ fn a_happy_face_that_says_mama_closes_its_lips_in_a_frame_for_every_m() {
     let neutral = average();
     let shapes = vec![(0.0, MouthShape::M), (0.464, MouthShape::A)];
     let starts = [0.4, 0.62, 0.84];
-    let spoken = starts.map(|start| Spoken { start, end: start + 0.22, shapes: shapes.clone() });
+    let spoken = starts.map(|start| Spoken { start, end: start + 0.22, shapes: shapes.clone(), exact: false });
     for emotion in Emotion::ALL {
         let mut score = Score::default();
         score.keys.push(Key::new(0.0, KeyValue::Emotion(Ratios::pure(emotion))));

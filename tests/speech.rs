@@ -122,6 +122,123 @@ fn samples_beyond_full_are_made_to_fit_and_those_that_are_no_numbers_are_silence
 }
 
 #[test]
+fn floating_point_of_64_bits_and_the_codes_of_telephones_are_read() {
+    let header = |tag: u16, width: u16, data: &[u8]| {
+        let mut file = tone(1, 8_000, 16, false)[..44].to_vec();
+        file[20..22].copy_from_slice(&tag.to_le_bytes());
+        file[32..34].copy_from_slice(&width.to_le_bytes());
+        file[34..36].copy_from_slice(&(width * 8).to_le_bytes());
+        put(&mut file, 40, data.len() as u32);
+        [&file, data].concat()
+    };
+    let wide: Vec<u8> = [0.5, -0.25, 1.0].iter().flat_map(|n: &f64| n.to_le_bytes()).collect();
+    assert_eq!(read(&header(3, 8, &wide)).unwrap().samples, [0.5, -0.25, 1.0]);
+    let sound = read(&header(7, 1, &[0xFF, 0x80, 0x00])).unwrap();
+    assert_eq!(sound.samples, [0.0, 32_124.0 / 32_768.0, -32_124.0 / 32_768.0]);
+    let sound = read(&header(6, 1, &[0xD5, 0xAA, 0x2A])).unwrap();
+    assert_eq!(sound.samples, [8.0 / 32_768.0, 32_256.0 / 32_768.0, -32_256.0 / 32_768.0]);
+    // The same behind WAVE_FORMAT_EXTENSIBLE, and in RF64, whose length stands in a part of its own.
+    let plain = header(1, 2, &[0, 64, 0, 192]);
+    let guid = [&1_u16.to_le_bytes()[..], b"\0\0\0\0\x10\0\x80\0\0\xAA\0\x38\x9B\x71"].concat();
+    let mut long = [&plain[..36], &22_u16.to_le_bytes(), &16_u16.to_le_bytes(), &[0; 4], &guid, &plain[36..]].concat();
+    put(&mut long, 16, 40);
+    long[20..22].copy_from_slice(&[0xFE, 0xFF]);
+    assert_eq!(read(&long).unwrap().samples, [0.5, -0.5]);
+    for name in [b"RF64", b"BW64"] {
+        let lengths = [&200_u64.to_le_bytes()[..], &4_u64.to_le_bytes(), &2_u64.to_le_bytes(), &[0; 4]].concat();
+        let ds64 = [b"ds64", &28_u32.to_le_bytes()[..], &lengths].concat();
+        let mut file = [name, &[0xFF; 4][..], b"WAVE", &ds64, &plain[12..], &[9; 8]].concat();
+        put(&mut file, 12 + 36 + 24 + 4, u32::MAX);
+        let sound = read(&file).unwrap();
+        assert_eq!((sound.samples.as_slice(), sound.warnings.len()), (&[0.5, -0.5][..], 0));
+    }
+}
+
+#[test]
+fn channels_that_cancel_each_other_are_not_mixed() {
+    let mut bytes = tone(2, 8_000, 16, false);
+    for right in bytes[44..].chunks_exact_mut(4) {
+        let sample = i16::from_le_bytes([right[2], right[3]]).saturating_neg();
+        right[2..].copy_from_slice(&sample.to_le_bytes());
+    }
+    let sound = read(&bytes).unwrap();
+    assert!((sound.peaks(0.0, 1.0, 1)[0].1 - 0.5).abs() < 0.01);
+    assert!(sound.warnings[0].contains("cancel"), "{:?}", sound.warnings);
+}
+
+/// The sound that the files of `tests/sounds` were made from.
+fn bursts() -> Vec<f32> {
+    let burst = |time: f64, at: f64, hertz: f64| {
+        let place = (time - at) / 0.1;
+        let size = if place > 0.0 && place < 1.0 { (std::f64::consts::PI * place).sin().powi(2) } else { 0.0 };
+        0.5 * size * (std::f64::consts::TAU * hertz * (time - at)).sin()
+    };
+    let sample = |i: u32| f64::from(i) / 16_000.0;
+    (0..9_600).map(|i| (burst(sample(i), 0.1, 440.0) + burst(sample(i), 0.35, 1000.0)) as f32).collect()
+}
+
+fn sounds(name: &str) -> Vec<u8> {
+    std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sounds").join(name)).unwrap()
+}
+
+/// How far one sound is from another moved by `shift` samples: the root mean square of the difference, as a share.
+fn apart(sound: &[f32], truth: &[f32], shift: i64) -> f64 {
+    let at = |i: usize| usize::try_from(i as i64 + shift).ok().and_then(|i| sound.get(i)).copied().unwrap_or(0.0);
+    let wrong: f64 = truth.iter().enumerate().map(|(i, t)| f64::from(at(i) - t).powi(2)).sum();
+    (wrong / truth.iter().map(|t| f64::from(*t).powi(2)).sum::<f64>()).sqrt()
+}
+
+#[test]
+fn every_kind_of_file_gives_the_sound_that_went_in_at_its_time() {
+    let truth = bursts();
+    for (name, most) in [
+        ("tone.flac", 1e-3),
+        ("tone.ogg", 0.2),
+        ("tone.mp3", 0.1),
+        ("untagged.mp3", 0.1),
+        ("tone.aac", 0.05),
+        ("tone.m4a", 0.05),
+        ("video.mp4", 0.05),
+        ("ima.wav", 0.1),
+        ("msa.wav", 0.1),
+    ] {
+        // Under a name that lies: the content counts.
+        let sound = read(&sounds(name)).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+        assert_eq!((sound.rate, sound.channels, sound.warnings.len()), (16_000, 1, 0), "{name} {:?}", sound.warnings);
+        assert!((9_600..9_600 + 1_200).contains(&sound.samples.len()), "{name}: {}", sound.samples.len());
+        let here = apart(&sound.samples, &truth, 0);
+        println!("{name}: {} samples, {here:.4} apart", sound.samples.len());
+        assert!(
+            here < most && here < apart(&sound.samples, &truth, 1) && here < apart(&sound.samples, &truth, -1),
+            "{name}"
+        );
+        // Whatever lies behind the bursts is silence.
+        assert!(sound.samples[9_000..].iter().all(|s| s.abs() < 0.01), "{name}");
+    }
+    for name in ["tone.flac", "tone.ogg", "tone.m4a", "video.mp4"] {
+        assert_eq!(read(&sounds(name)).unwrap().samples.len(), 9_600, "{name}");
+    }
+}
+
+#[test]
+fn what_is_damaged_is_silent_and_what_follows_keeps_its_time() {
+    let truth = bursts();
+    let mut hurt = sounds("tone.m4a");
+    let data = hurt.windows(4).position(|w| w == b"mdat").unwrap() + 4;
+    // The third and fourth frame: the first burst.
+    hurt[data + 9..data + 80].fill(0xA5);
+    let sound = read(&hurt).unwrap();
+    assert_eq!(sound.samples.len(), 9_600);
+    assert!(sound.warnings.iter().any(|w| w.contains("damaged and silent, the first at 0.0")), "{:?}", sound.warnings);
+    let second = |samples: &[f32]| samples[5_400..7_400].to_vec();
+    assert!(apart(&second(&sound.samples), &second(&truth), 0) < 0.05);
+    let cut = sounds("tone.mp3");
+    let sound = read(&cut[..cut.len() / 2]).unwrap();
+    assert!(sound.samples.len() > 3_000 && sound.samples.len() < 6_000, "{}", sound.samples.len());
+    assert!(sound.warnings.iter().any(|w| w.contains("cut off")), "{:?}", sound.warnings);
+}
+
+#[test]
 fn what_cannot_be_read_says_why_and_what_to_do() {
     let good = tone(1, 8_000, 16, false);
     let with = |at: usize, bytes: &[u8]| {
@@ -129,23 +246,60 @@ fn what_cannot_be_read_says_why_and_what_to_do() {
         file[at..at + bytes.len()].copy_from_slice(bytes);
         file
     };
+    let mp4 = sounds("video.mp4");
+    let index = mp4.windows(4).position(|w| w == b"moov").unwrap();
+    let unfinished = [&mp4[..index], b"free", &mp4[index + 4..]].concat();
     for (bytes, said) in [
-        (Vec::new(), "no WAV"),
-        (b"ID3\x04 an MP3 of some length".to_vec(), "no WAV"),
+        (Vec::new(), "the file is empty"),
+        (b"not a sound at all, but a text of some length".to_vec(), "no recording that is known"),
+        (b"ID3\x04 an MP3 of some length".to_vec(), "cannot find the sound"),
+        (sounds("tone.opus"), "Opus"),
+        (unfinished, "never finished"),
         (good[..30].to_vec(), "does not say how its samples"),
         (good[..40].to_vec(), "no sound"),
         (good[..44].to_vec(), "no sound"),
         (with(24, &[0; 4]), "0 samples a second"),
         (with(22, &[0; 2]), "0 channels"),
         (with(22, &[0xFF, 0xFF]), "65535 channels"),
-        (with(20, &[7, 0]), "µ-law"),
+        (with(20, &[7, 0]), "µ-law of 16 bits"),
         (with(20, &[3, 0]), "floating point of 16 bits"),
+        (with(20, &[0x61, 1]), ""),
         (with(24, &[1, 0, 0, 0]), "1 samples a second"),
         (with(24, &[0xFF; 4]), "4294967295 samples a second"),
     ] {
         let fault = read(&bytes).err().unwrap_or_else(|| panic!("read: {said}"));
         assert!(fault.what().contains(said), "{said}: {fault}");
         assert!(fault.path().is_some() && !fault.next_step().is_empty(), "{fault}");
+    }
+    assert!(read(&sounds("tone.opus")).unwrap_err().next_step().contains("ffmpeg -i speech.wav converted.wav"));
+}
+
+#[test]
+fn damaged_files_of_every_kind_are_read_or_refused_within_bounds() {
+    let mut state = 1_u32;
+    let mut random = move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as usize
+    };
+    for name in
+        ["tone.flac", "tone.ogg", "tone.mp3", "untagged.mp3", "tone.aac", "tone.m4a", "video.mp4", "ima.wav", "msa.wav"]
+    {
+        let whole = sounds(name);
+        for round in 0..std::env::var("ROUNDS").map_or(60, |r| r.parse().unwrap()) {
+            let mut bytes = whole.clone();
+            match round % 3 {
+                0 => bytes.truncate(random() % whole.len()),
+                1 => (0..1 + random() % 8).for_each(|_| bytes[random() % whole.len()] = random() as u8),
+                _ => {
+                    let at = random() % whole.len();
+                    let length = (random() % 64).min(whole.len() - at);
+                    bytes[at..at + length].fill([0, 0xFF, random() as u8][random() % 3]);
+                }
+            }
+            if let Ok(sound) = read(&bytes) {
+                assert!(sound.duration() < 4.0 * 3600.0 && !sound.samples.is_empty(), "{name} {round}");
+            }
+        }
     }
 }
 

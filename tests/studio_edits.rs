@@ -10,6 +10,7 @@ use studio_bench::{Bench, TIMES, TOUCHING};
 #[test]
 fn guessed_times_are_marked_until_the_author_sets_them() {
     let mut bench = Bench::new(None, &[]);
+    assert!(bench.message().contains("no voice is heard"), "{}", bench.message());
     assert!(bench.screen(80, 24).contains("您?") && bench.screen(80, 24).contains("guessed?"));
     bench.keys("Tab ]");
     let screen = bench.screen(80, 24);

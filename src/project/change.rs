@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::clip::CONFIDENCE;
+use super::doubts::CONFIDENCE;
+use super::said::Said;
 use super::{Clip, LessonFace};
 use crate::disk::{Fault, Result};
 use crate::face::{Face, FeaturePoint, How, Placed};
@@ -42,6 +43,15 @@ pub enum Edit {
         before: Box<Times>,
         /// As they are to be.
         after: Box<Times>,
+    },
+    /// What is said in a clip: its script, its times and its pins, where words are put in.
+    Said {
+        /// Number of the clip.
+        clip: usize,
+        /// As it was.
+        before: Box<Said>,
+        /// As it is to be.
+        after: Box<Said>,
     },
     /// A syllable's label: its text, or text and reading as `行{hang2}`.
     Label {
@@ -192,6 +202,7 @@ impl Edit {
         match self.clone() {
             Self::Times { clip, first, before, after } => Self::Times { clip, first, before: after, after: before },
             Self::Timing { clip, before, after } => Self::Timing { clip, before: after, after: before },
+            Self::Said { clip, before, after } => Self::Said { clip, before: after, after: before },
             Self::Label { clip, index, before, after } => Self::Label { clip, index, before: after, after: before },
             Self::Pin { clip, index, pinned } => Self::Pin { clip, index, pinned: !pinned },
             Self::AddKey { clip, key } => Self::RemoveKey { clip, key },
@@ -219,6 +230,7 @@ impl Edit {
                 clip.read_labels();
                 Ok(())
             }
+            Self::Said { clip, before, after } => clip_of(clips, *clip)?.say(before, after),
             Self::Label { clip, index, before, after } => {
                 let clip = clip_of(clips, *clip)?;
                 let label = clip
@@ -294,7 +306,7 @@ fn clip_of(clips: &mut [Clip], clip: usize) -> Result<&mut Clip> {
     clips.get_mut(clip).ok_or_else(stale)
 }
 
-fn stale() -> Fault {
+pub(super) fn stale() -> Fault {
     Fault::new("the change does not fit the lesson as it is now").help("the files were changed by other means")
 }
 
@@ -316,7 +328,7 @@ fn remove<T: PartialEq>(list: &mut Vec<T>, item: &T) -> Result<()> {
 
 /// Whether two sets of tiers have the same syllables at the same times: a file keeps microseconds, memory more. The
 /// other tiers follow the syllables.
-fn same_times(a: &Timing, b: &Timing) -> bool {
+pub(super) fn same_times(a: &Timing, b: &Timing) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() < 2e-6;
     let intervals = |t: &Timing| t.syllables().map(|t| t.intervals.clone()).unwrap_or_default();
     let (a, b) = (intervals(a), intervals(b));

@@ -95,7 +95,7 @@ impl LessonFace {
 
 impl Clip {
     pub(super) fn save(&mut self) -> Result<Vec<PathBuf>> {
-        let mut written = Vec::new();
+        let mut written: Vec<PathBuf> = self.save_script()?.into_iter().collect();
         // Guesses are made anew from the sound, so they are not written until something of the tier was set by hand.
         let labels_set = self.intervals().iter().zip(&self.syllables).any(|(i, s)| i.label != s.text);
         if !self.timing.guessed || !self.score.pins.is_empty() || labels_set {
@@ -111,6 +111,37 @@ impl Clip {
         }
         Ok(written)
     }
+}
+
+/// `script.txt`, where words were laid into it or taken out again.
+impl Clip {
+    fn save_script(&mut self) -> Result<Option<PathBuf>> {
+        if self.script == self.kept_script {
+            return Ok(None);
+        }
+        let path = self.folder.join("script.txt");
+        let written =
+            if self.script.trim().is_empty() && self.seen.script.is_some() && checksum(&path) == self.seen.script {
+                remove(&path)?;
+                self.seen.script = None;
+                // Times of nothing; only what this program wrote, or has read as it is.
+                let times = self.folder.join("timing.TextGrid");
+                if self.intervals().is_empty() && self.seen.timing.is_some() && checksum(&times) == self.seen.timing {
+                    remove(&times)?;
+                    self.seen.timing = None;
+                }
+                Some(path)
+            } else {
+                let line = format!("{}\n", self.script.trim_end());
+                write_changed(path, &line, &mut self.seen.script)?
+            };
+        self.kept_script.clone_from(&self.script);
+        Ok(written)
+    }
+}
+
+fn remove(path: &Path) -> Result<()> {
+    std::fs::remove_file(path).map_err(|e| Fault::io("cannot remove it", path, e))
 }
 
 /// What a file looks like; none where there is none.

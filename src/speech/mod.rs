@@ -5,15 +5,23 @@
 
 pub mod align;
 mod alignment;
+mod decimate;
+mod decode;
+mod iso;
+mod kind;
 mod levels;
+mod mix;
 mod nuclei;
 mod peaks;
 mod pitch;
+mod read;
 mod resample;
+mod sonority;
 mod sound;
 mod sounding;
 mod spectrogram;
 mod wav;
+mod wav_form;
 
 pub use align::align;
 pub use alignment::{Alignment, Note, Pin, SpokenPhone, SpokenSyllable, Take};

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use super::peaks::Pyramid;
-use super::{resample, sounding, wav};
+use super::{read, resample, sounding};
 use crate::disk::Result;
 
 /// A recording, its channels mixed into one.
@@ -19,6 +19,8 @@ pub struct Sound {
     pub samples: Vec<f32>,
     /// What was wrong with the file and mended, one line each.
     pub warnings: Vec<String>,
+    /// The root mean square of each channel; none where it was not read from a file.
+    pub(super) sides: Vec<f64>,
     outline: OnceLock<Pyramid>,
 }
 
@@ -29,16 +31,19 @@ impl Sound {
         Self { rate: rate.max(1), channels: 1, samples, ..Self::default() }
     }
 
-    /// Reads a WAV file of 8 to 32 bits, whole numbers or floating point, at any rate, with any number of channels.
+    /// Reads a recording: WAV of 8 to 64 bits, whole numbers or floating point, A-law, µ-law or ADPCM, at any rate, with
+    /// any number of channels; AIFF, FLAC, OGG (Vorbis), MP3, M4A (AAC, ALAC); the sound of MP4, MOV, MKV and WebM. What
+    /// a file is, its content says, whatever its ending.
     ///
     /// The lengths in its headers are not believed: of a recording that was cut off, or whose header was never
-    /// finished, everything that is there is used, with a warning.
+    /// finished, everything that is there is used, with a warning. What is damaged is silent, and what follows keeps
+    /// its time. What an encoder put before the sound is taken off: times are those of what was encoded.
     ///
     /// # Errors
-    /// With the path: no WAV, an encoding other than those, no sound in it, a rate or number of channels of 0, longer
-    /// than 4 hours or larger than 2 GB.
+    /// With the path: no recording, a compression that is not read (Opus, WMA), no sound in it, a rate or number of
+    /// channels that cannot be, longer than 4 hours or larger than 2 GB.
     pub fn read(path: &Path) -> Result<Self> {
-        wav::read(path).map_err(|fault| fault.at(path))
+        read::read(path)
     }
 
     /// How long it is, in seconds.
@@ -68,8 +73,8 @@ impl Sound {
     }
 
     /// Its samples at another rate, band-limited: as they are where it is the same. Sample `i` lies at `i / rate`
-    /// seconds in both; there are round(n · `rate` / its own) of them. What passes is kept to a thousandth up to ⅞ of
-    /// half the lower rate, what that rate cannot hold is 70 dB down. Ten minutes at 48 kHz take a third of a second.
+    /// seconds in both; there are round(n · `rate` / its own) of them. What passes is kept to a thousandth up to 95 % of
+    /// half the lower rate, what that rate cannot hold is 64 dB down. Ten minutes at 48 kHz take half a second.
     #[must_use]
     pub fn resampled(&self, rate: u32) -> Cow<'_, [f32]> {
         if rate == self.rate {

@@ -113,6 +113,38 @@ pub enum Action {
     Mouth(i32),
     /// Show another stage of the search.
     Stage(i32),
+    /// Find the clip's times in its sound.
+    Align,
+    /// Go to another place that the alignment is not sure of.
+    Doubt(i32),
+    /// List the places that the alignment is not sure of.
+    Doubts,
+    /// Go to the chosen place of that list.
+    GoThere,
+    /// Show the sound as a wave, as a spectrogram, or both.
+    SoundView,
+    /// Show the pitch of the voice, or not.
+    Tone,
+    /// Mark where syllables are heard, for words to be typed onto.
+    Places,
+    /// Begin to tap syllables along with the sound.
+    Tap,
+    /// While tapping: go on from where it stands, mark the start of a syllable.
+    TapStart,
+    /// While tapping: mark the end of a syllable, before a pause.
+    TapEnd,
+    /// While tapping: take the last mark back and go a second back.
+    TapBack,
+    /// While tapping: at full speed, or at half.
+    TapSpeed,
+    /// While tapping: choose the syllable that comes next.
+    TapNext(i32),
+    /// Measure how late taps come.
+    TapMeasure,
+    /// Keep what was tapped.
+    TapKeep,
+    /// Drop what was tapped.
+    TapDrop,
 }
 
 /// How far a boundary is moved.

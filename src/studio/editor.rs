@@ -1,6 +1,7 @@
 //! A clip on the desk: its built timeline, the cursor, what is selected and what is shown of it.
 
 use super::Lane;
+use super::tapping::Tapping;
 use super::window::Window;
 use crate::figure::Figure;
 use crate::pose::Pose;
@@ -35,6 +36,10 @@ pub struct Editor {
     pub extent: (f64, f64),
     /// The loudest sample, once the outline of the sound is ready.
     pub loudest: Option<f32>,
+    /// Places where syllables are heard and no words are yet: starts and ends in seconds.
+    pub places: Vec<(f64, f64)>,
+    /// What is being tapped.
+    pub tapping: Option<Tapping>,
 }
 
 /// Where the author was on a clip that she has left.
@@ -83,6 +88,8 @@ impl Editor {
             playing: None,
             extent: (0.0, 1.0),
             loudest: None,
+            places: Vec::new(),
+            tapping: None,
         };
         editor.rebuild(lesson);
         editor
@@ -151,6 +158,27 @@ impl Editor {
         // Between two frames the next one on either side is one step away.
         let from = if frames > 0 { (at + 1e-6).floor() } else { (at - 1e-6).ceil() };
         self.go(clip, (from + f64::from(frames)).max(0.0) / self.timeline.fps());
+    }
+
+    /// Goes to the next or previous start of a syllable or of a marked place.
+    pub fn to_syllable_or_place(&mut self, clip: &Clip, by: i32) {
+        let syllables = clip.intervals().iter().enumerate().map(|(i, s)| (s.start, Some(i)));
+        let mut starts: Vec<(f64, Option<usize>)> = syllables.chain(self.places.iter().map(|p| (p.0, None))).collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let beyond = |s: &&(f64, Option<usize>)| (s.0 - self.cursor) * f64::from(by) > 1e-6;
+        let found = if by > 0 { starts.iter().find(beyond) } else { starts.iter().rev().find(beyond) };
+        if let Some((time, syllable)) = found.copied() {
+            self.go(clip, time);
+            self.syllable = syllable.or(self.syllable);
+        }
+    }
+
+    /// How many columns of so many a phone takes in the mean; none where the clip has no phones.
+    #[must_use]
+    pub fn columns_a_phone(&self, clip: &Clip, columns: u16) -> Option<f64> {
+        let phones = &clip.timing.tier("phones")?.intervals;
+        let seconds: f64 = phones.iter().map(crate::timing::Interval::duration).sum();
+        (!phones.is_empty()).then(|| seconds / phones.len() as f64 / self.window.span * f64::from(columns))
     }
 
     /// Selects the syllable at the cursor, or the one nearest to it, unless one is selected.

@@ -6,7 +6,7 @@ use super::editor::{Editor, LaneKey, value_text};
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
-use super::{Lane, boundary, typed};
+use super::{Lane, boundary, places, typed};
 use crate::project::{Change, Clip, Edit};
 use crate::script::{Lang, System, reading};
 use crate::timeline::{Key, KeyValue, Range, Track};
@@ -30,8 +30,10 @@ pub(super) fn execute(state: &mut State, action: Action) -> bool {
     true
 }
 
+const NO_SYLLABLES: &str = "this clip has no syllables: m marks where they are heard, or write its script.txt";
+
 /// Makes a change and shows it. What cannot be done is said.
-fn change(state: &mut State, change: Change) -> bool {
+pub(super) fn change(state: &mut State, change: Change) -> bool {
     let label = change.label.clone();
     let Some(lesson) = state.lesson_mut() else { return false };
     match lesson.change(change) {
@@ -80,7 +82,7 @@ pub(super) fn retrace(state: &mut State, action: Action) {
 fn nudge(state: &mut State, by: Nudge, side: (boundary::Side, bool)) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
     let Some(syllable) = editor.syllable else {
-        state.refuse("this clip has no syllables: write its script.txt");
+        state.refuse(NO_SYLLABLES);
         return;
     };
     let seconds = match by {
@@ -98,7 +100,7 @@ fn nudge(state: &mut State, by: Nudge, side: (boundary::Side, bool)) {
     }
 }
 
-fn prompt(state: &mut State, purpose: Purpose, title: String, help: &'static str, text: String) {
+pub(super) fn prompt(state: &mut State, purpose: Purpose, title: String, help: &'static str, text: String) {
     if let Some(why) = state.lesson().and_then(|l| l.read_only.clone()) {
         state.refuse(format!("the lesson cannot be changed: {why}"));
         return;
@@ -110,7 +112,7 @@ fn prompt(state: &mut State, purpose: Purpose, title: String, help: &'static str
 fn ask_reading(state: &mut State) {
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
     let Some((index, syllable)) = editor.syllable.and_then(|i| Some((i, clip.syllables.get(i)?))) else {
-        state.refuse("this clip has no syllables: write its script.txt");
+        state.refuse(NO_SYLLABLES);
         return;
     };
     if syllable.lang == Lang::En {
@@ -128,6 +130,9 @@ const READING_HELP: &str = "one syllable: hang2, háng or ㄏㄤˊ; empty: as th
 
 /// The key at the cursor where there is one, else the reading or the edit of a stretch, else a new key.
 fn edit(state: &mut State) {
+    if state.editor.as_ref().is_some_and(|e| e.lane == Lane::Syllables) && places::ask(state) {
+        return;
+    }
     let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return };
     match (editor.lane, editor.key_here(clip)) {
         (Lane::Syllables, _) => ask_reading(state),
@@ -217,6 +222,7 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
             }
             Ok(())
         }
+        Purpose::Words { from } => places::take(state, from, text),
         Purpose::Export | Purpose::Point => Ok(()),
     }
 }

@@ -10,10 +10,11 @@ use super::export::{ExportRequest, Progress};
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
-use super::{Action, Place, edits, face_edits};
+use super::{Action, Place, aligning, edits, face_edits, listening, places, tap_desk};
 use crate::export::Format;
 use crate::face::{Anchors, Face};
 use crate::geometry::Point;
+use crate::project::AlignJob;
 use crate::speech::Sound;
 
 /// Work that takes long enough to be done elsewhere.
@@ -23,6 +24,40 @@ pub enum Job {
     Open(PathBuf),
     /// Make the outline of a clip's sound.
     Outline {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its sound.
+        sound: Arc<Sound>,
+    },
+    /// Find a clip's times in its sound.
+    Align {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// What to align.
+        job: Box<AlignJob>,
+    },
+    /// Make the spectrogram of a clip's sound.
+    Spectrogram {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its sound.
+        sound: Arc<Sound>,
+    },
+    /// Track the pitch of a clip's sound.
+    Pitch {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its sound.
+        sound: Arc<Sound>,
+    },
+    /// Mark where syllables are heard in a clip's sound.
+    Nuclei {
         /// The lesson's folder.
         root: PathBuf,
         /// Number of the clip.
@@ -66,57 +101,103 @@ pub enum Job {
 /// What is said when something is played for the first time. It stands only while it plays.
 pub(super) const SILENT: &str = "playing without sound: this version has none yet";
 
-/// Carries out an action.
-pub fn execute(state: &mut State, action: Action) -> Option<Job> {
+/// Carries out an action. What takes long is left to the jobs that are returned.
+#[must_use]
+pub fn execute(state: &mut State, action: Action) -> Vec<Job> {
     if !matches!(action, Action::Redraw) {
         state.message = None;
     }
     // Whatever is pressed besides play and zoom takes the author's hand to the cursor: it stops.
-    if !matches!(action, Action::Play | Action::Zoom(_) | Action::Fit | Action::Redraw)
-        && let Some(editor) = &mut state.editor
+    if !matches!(
+        action,
+        Action::Play | Action::Zoom(_) | Action::Fit | Action::SoundView | Action::Tone | Action::Redraw
+    ) && let Some(editor) = &mut state.editor
     {
         editor.playing = None;
     }
+    let job = match action {
+        Action::Redraw => {
+            state.redraw = true;
+            None
+        }
+        Action::Help => {
+            tap_desk::pause(state);
+            state.overlays.push(Overlay::Help { of: state.place(), scrolled: 0 });
+            None
+        }
+        Action::Choose(by) => {
+            choose(state, by);
+            None
+        }
+        Action::Quit | Action::Back | Action::Save | Action::Export | Action::Undo | Action::Redo => {
+            whole(state, action);
+            None
+        }
+        Action::Open => return open(state),
+        Action::SoundView | Action::Tone => {
+            match action {
+                Action::SoundView => state.view = state.view.next(),
+                _ => state.tone = !state.tone,
+            }
+            return listening::missing(state);
+        }
+        Action::Face => face_edits::open(state),
+        _ if !state.overlays.is_empty() => on_top(state, action),
+        Action::Align => aligning::ask(state),
+        _ if state.face.is_some() => face_edits::execute(state, action),
+        _ if state.place() == Place::Tapping => tap_desk::execute(state, action),
+        Action::Places => places::mark(state),
+        _ => {
+            on_timeline(state, action);
+            None
+        }
+    };
+    job.into_iter().collect()
+}
+
+/// What concerns the whole lesson or the way one came.
+fn whole(state: &mut State, action: Action) {
     match action {
-        Action::Redraw => state.redraw = true,
-        Action::Help => state.overlays.push(Overlay::Help { of: state.place(), scrolled: 0 }),
         Action::Quit => leave(state, Action::Quit),
         Action::Back => back(state),
-        Action::Choose(by) => choose(state, by),
-        Action::Open => return open(state),
         Action::Save => save(state),
         Action::Export => ask_export(state),
-        Action::Undo | Action::Redo => edits::retrace(state, action),
-        Action::Face => return face_edits::open(state),
-        _ if !state.overlays.is_empty() => return on_top(state, action),
-        _ if state.face.is_some() => return face_edits::execute(state, action),
-        _ => on_timeline(state, action),
+        _ => edits::retrace(state, action),
     }
-    None
 }
 
 fn choose(state: &mut State, by: i32) {
     let moved = |at: usize, length: usize| (at as i32 + by).clamp(0, length.saturating_sub(1) as i32) as usize;
+    if let Some(Overlay::Doubts { list, chosen }) = state.overlays.last_mut() {
+        *chosen = moved(*chosen, list.len());
+        return;
+    }
     match &mut state.open {
         Some(open) => open.chosen = moved(open.chosen, open.lesson.as_ref().map_or(0, |l| l.clips.len())),
         None => state.chosen = moved(state.chosen, state.lessons.len()),
     }
 }
 
-fn open(state: &mut State) -> Option<Job> {
+fn open(state: &mut State) -> Vec<Job> {
     match state.screen() {
         Place::Projects => {
-            let listed = state.lessons.get(state.chosen)?;
+            let Some(listed) = state.lessons.get(state.chosen) else { return Vec::new() };
             state.busy = Some(format!("opening {}…", listed.name));
-            Some(Job::Open(listed.root.clone()))
+            vec![Job::Open(listed.root.clone())]
         }
-        Place::Lesson => open_clip(state),
-        _ => None,
+        Place::Lesson => {
+            let Some((clip, outline)) = open_clip(state) else { return Vec::new() };
+            let mut jobs: Vec<Job> = outline.into_iter().collect();
+            jobs.extend(listening::missing(state));
+            jobs.extend(aligning::of_itself(state, clip));
+            jobs
+        }
+        _ => Vec::new(),
     }
 }
 
 /// Puts the chosen clip on the desk. Its sound goes to a thread that makes the outline.
-fn open_clip(state: &mut State) -> Option<Job> {
+fn open_clip(state: &mut State) -> Option<(usize, Option<Job>)> {
     let chosen = state.open.as_ref()?.chosen;
     let figure = {
         let lesson = state.lesson()?;
@@ -143,7 +224,7 @@ fn open_clip(state: &mut State) -> Option<Job> {
         state.say(format!("you can look but not change: {why}"));
     }
     let root = state.lesson()?.root.clone();
-    sound.map(|sound| Job::Outline { root, clip: chosen, sound })
+    Some((chosen, sound.map(|sound| Job::Outline { root, clip: chosen, sound })))
 }
 
 fn back(state: &mut State) {
@@ -177,6 +258,7 @@ fn leave(state: &mut State, by: Action) {
         return;
     }
     state.overlays.clear();
+    tap_desk::leave(state);
     if state.is_unsaved() {
         state.overlays.push(Overlay::Confirm(by));
         return;
@@ -231,6 +313,7 @@ fn on_top(state: &mut State, action: Action) -> Option<Job> {
         (Overlay::Help { scrolled, .. }, Action::Scroll(by)) => {
             *scrolled = (*scrolled as i32 + by).clamp(0, 100) as usize;
         }
+        (Overlay::Doubts { .. }, Action::GoThere) => aligning::go_there(state),
         (Overlay::Confirm(by), Action::DropAndGo) => {
             let by = *by;
             state.face = None;
@@ -354,9 +437,10 @@ fn on_timeline(state: &mut State, action: Action) {
         Action::Lane(by) => editor.lane = editor.lane.moved(by),
         Action::Zoom(by) => editor.window = editor.window.zoomed(by, editor.cursor, duration),
         Action::Fit => editor.window = super::window::Window::whole(duration),
+        Action::Syllable(by) if !editor.places.is_empty() => editor.to_syllable_or_place(clip, by),
         Action::Syllable(by) => {
             let Some(last) = clip.intervals().len().checked_sub(1) else {
-                state.refuse("this clip has no syllables: write its script.txt");
+                state.refuse("this clip has no syllables: m marks where they are heard, or write its script.txt");
                 return;
             };
             // From outside a syllable the selected one is the nearest, which is the first step's goal.
@@ -368,6 +452,8 @@ fn on_timeline(state: &mut State, action: Action) {
             editor.go(clip, clip.intervals()[goal].start);
             editor.syllable = Some(goal);
         }
+        Action::Doubt(_) | Action::Doubts => aligning::look(state, action),
+        Action::Tap => tap_desk::open(state),
         Action::Key(by) => {
             let super::Lane::Keys(track) = editor.lane else {
                 state.say("keys lie on the lanes below: ↓");

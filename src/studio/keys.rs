@@ -6,7 +6,8 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::Action::{self, *};
 use super::action::Nudge;
 use Place::{
-    Confirm, Export as Exporting, Face as Facing, Help as Helping, Lesson, Player, Projects, Prompt, Timeline,
+    Confirm, Doubts as Doubting, Export as Exporting, Face as Facing, Help as Helping, Lesson, Player, Projects,
+    Prompt, Tapping, Timeline,
 };
 
 /// Where a key is pressed: a screen, or what lies on top of one.
@@ -18,6 +19,10 @@ pub enum Place {
     Lesson,
     /// A clip's timeline.
     Timeline,
+    /// A clip's timeline while syllables are tapped.
+    Tapping,
+    /// The list of what there is to look at.
+    Doubts,
     /// A face: its photo, its points, its cartoon.
     Face,
     /// The full-terminal player.
@@ -34,10 +39,12 @@ pub enum Place {
 
 impl Place {
     /// The screens, as the README lists them.
-    const LISTED: [(Self, &'static str); 8] = [
+    const LISTED: [(Self, &'static str); 10] = [
         (Self::Projects, "Lessons"),
         (Self::Lesson, "A lesson"),
         (Self::Timeline, "The timeline of a clip"),
+        (Self::Doubts, "The list of what there is to look at"),
+        (Self::Tapping, "Tapping syllables"),
         (Self::Face, "The points of a face"),
         (Self::Player, "`lianpu play`"),
         (Self::Prompt, "A line being typed"),
@@ -135,12 +142,28 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("<", End(Nudge::Frames(-1))), (">", End(Nudge::Frames(1)))], "", "the same by one frame"),
     row(&[Timeline], &[("G", Gap(-1)), ("g", Gap(1))], "", "10 ms of pause before, after the syllable"),
     row(&[Timeline], &[("r", Reading)], "read", "set how the syllable is read"),
-    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, edited stretch or reading here"),
+    row(&[Lesson], &[("A", Align)], "align", "find the times of the clip in its sound"),
+    row(&[Timeline], &[("A", Align)], "align", "find the times in the sound (those set by hand stay)"),
+    row(&[Timeline], &[("d", Doubt(1)), ("D", Doubt(-1))], "look at", "next, previous place to look at (!)"),
+    row(&[Timeline], &[("o", Doubts)], "", "list the places to look at"),
+    row(&[Timeline], &[("S", SoundView)], "", "the sound as a wave, as a spectrogram, or both"),
+    row(&[Timeline], &[("P", Tone)], "", "the pitch of the voice, or not"),
+    row(&[Timeline], &[("t", Tap)], "tap", "tap the syllables along with the sound"),
+    row(&[Timeline], &[("m", Places)], "mark", "mark where syllables are heard; Enter types words"),
+    row(&[Timeline], &[("Enter", Edit)], "change", "change the key, stretch or reading; type words (○)"),
     row(&[Timeline], &[("a", Add)], "add", "add a key to the lane"),
     row(&[Timeline], &[("(", MoveKey(-1)), (")", MoveKey(1))], "", "move the key one frame back, on"),
     row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),
     row(&[Timeline], &[("v", Mark)], "", "mark a stretch: from here, to here"),
     row(&[Timeline], &[("X", DeleteRange)], "", "delete the edit of a stretch"),
+    row(&[Tapping], &[("Enter", TapStart)], "start of a syllable", "begin; then: the next syllable starts now"),
+    row(&[Tapping], &[("Space", TapEnd)], "pause", "the syllable ends now, a pause follows"),
+    row(&[Tapping], &[("Backspace", TapBack)], "back", "take the last one back, and go a second back"),
+    row(&[Tapping], &[("Tab", TapNext(1)), ("Shift-Tab", TapNext(-1))], "syllable", "another syllable comes next"),
+    row(&[Tapping], &[("r", TapSpeed)], "speed", "at full speed, at half"),
+    row(&[Tapping], &[("c", TapMeasure)], "measure", "measure how late your taps come, with 8 flashes"),
+    row(&[Tapping], &[("q", TapKeep), ("Esc", TapKeep)], "done", "keep what was tapped, and go back to the timeline"),
+    row(&[Tapping], &[("x", TapDrop)], "drop", "drop what was tapped"),
     row(
         &[Facing],
         &[("Left", Move(-1, 0)), ("Right", Move(1, 0)), ("Up", Move(0, -1)), ("Down", Move(0, 1))],
@@ -187,18 +210,31 @@ pub const TABLE: &[Row] = &[
     row(&[Facing], &[("e", Emotion(1)), ("E", Emotion(-1))], "emotion", "show the next, previous emotion"),
     row(&[Facing], &[("m", Mouth(1)), ("M", Mouth(-1))], "mouth", "show the next, previous mouth shape"),
     row(&[Facing], &[("c", Hair)], "hair", "hair: straight, wavy, curly, shaved, bald"),
+    row(
+        &[Doubting],
+        &[("Up", Choose(-1)), ("Down", Choose(1)), ("k", Choose(-1)), ("j", Choose(1))],
+        "choose",
+        "choose",
+    ),
+    row(&[Doubting], &[("Enter", GoThere)], "go there", "go there"),
+    row(&[Doubting], &[("q", Close), ("Esc", Close), ("o", Close)], "close", "close the list"),
     row(&[Timeline, Facing], &[("u", Undo), ("Ctrl-r", Redo)], "undo", "undo, redo"),
     row(&[Timeline, Lesson, Facing], &[("s", Save), ("Ctrl-s", Save)], "save", "save the lesson"),
     row(&[Timeline, Lesson], &[("e", Export)], "export", "export"),
     row(&[Lesson], &[("f", Face)], "face", "the face: its photo, its points, its cartoon"),
     row(&[Timeline], &[("f", Face)], "", "the face: its photo, its points, its cartoon"),
-    row(&[Projects, Lesson, Timeline, Facing, Player], &[("?", Help)], "help", "all keys of this place"),
-    row(&[Projects, Lesson, Timeline, Facing, Player], &[("Ctrl-l", Redraw)], "", "draw the screen anew"),
+    row(&[Projects, Lesson, Timeline, Tapping, Facing, Player], &[("?", Help)], "help", "all keys of this place"),
+    row(&[Projects, Lesson, Timeline, Tapping, Facing, Player], &[("Ctrl-l", Redraw)], "", "draw the screen anew"),
     row(&[Projects, Player], &[("q", Quit), ("Esc", Quit), ("Ctrl-c", Quit)], "quit", "quit"),
     row(&[Lesson], &[("q", Back), ("Esc", Back), ("Left", Back)], "back", "back to the lessons"),
     row(&[Timeline], &[("q", Back), ("Esc", Back)], "back", "back to the lesson"),
     row(&[Facing], &[("q", Back), ("Esc", Back)], "back", "back to where one was"),
-    row(&[Lesson, Timeline, Facing, Helping, Prompt, Confirm, Exporting], &[("Ctrl-c", Quit)], "", "quit the studio"),
+    row(
+        &[Lesson, Timeline, Doubting, Tapping, Facing, Helping, Prompt, Confirm, Exporting],
+        &[("Ctrl-c", Quit)],
+        "",
+        "quit the studio",
+    ),
     row(
         &[Helping],
         &[("Up", Scroll(-1)), ("Down", Scroll(1)), ("k", Scroll(-1)), ("j", Scroll(1))],
@@ -307,7 +343,7 @@ pub fn hints_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
                 shown_keys.push((key, *action));
             }
         }
-        if matches!(r.hint, "undo" | "syllable" | "point" | "stages" | "emotion" | "mouth") {
+        if matches!(r.hint, "undo" | "syllable" | "look at" | "point" | "stages" | "emotion" | "mouth") {
             shown_keys.truncate(1);
         }
         shown_keys.iter().map(|(k, _)| shown(k)).collect::<String>()
@@ -338,7 +374,9 @@ mod tests {
 
     #[test]
     fn no_key_asks_for_two_things_in_one_place() {
-        for place in [Projects, Lesson, Timeline, Facing, Player, Helping, Prompt, Confirm, Exporting] {
+        for place in
+            [Projects, Lesson, Timeline, Doubting, Tapping, Facing, Player, Helping, Prompt, Confirm, Exporting]
+        {
             let mut keys: Vec<&str> =
                 TABLE.iter().filter(|r| r.places.contains(&place)).flat_map(|r| r.keys).map(|(k, _)| *k).collect();
             keys.sort_unstable();

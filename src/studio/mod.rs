@@ -5,6 +5,7 @@
 //! (`work`) and reports back. The studio owns no lesson data: every edit is a change of the lesson.
 
 mod action;
+mod aligning;
 mod boundary;
 mod draw;
 mod edits;
@@ -16,31 +17,44 @@ mod face_edits;
 mod keys;
 mod lane;
 mod line;
+mod listening;
 mod look;
 mod overlay;
 mod photo_picture;
 mod picture;
+mod places;
 mod play;
 mod run;
 mod state;
 #[allow(clippy::module_inception, reason = "it is the studio itself")]
 mod studio;
+mod tap_desk;
+mod tapping;
 mod terminal;
 mod typed;
+mod voice;
 mod window;
 mod work;
 
 pub use action::{Action, Nudge};
+pub use aligning::{Aligner, Aligning, Spotted};
 pub use editor::{Editor, LaneKey, Left};
 pub use export::{ExportRequest, Exporter, Progress};
 pub use face_desk::{FaceDesk, Placing};
 pub use keys::{Place, key_table_markdown};
 pub use lane::Lane;
 pub use line::Line;
+pub use listening::{Listened, SoundView, Tone};
 pub use look::Colours;
 pub use overlay::{Overlay, Prompt, Purpose};
 pub use play::{Caption, Player, Show, play};
 pub use run::run;
-pub use state::{Listed, Message, Open, State};
+pub use state::{Hear, Listed, Message, Open, State};
 pub use studio::{Report, Studio};
+pub use tapping::{Phase, Tap, Tapping};
 pub use window::Window;
+
+/// A number with what it counts: `1 syllable`, `3 places`.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}

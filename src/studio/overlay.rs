@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::aligning::Spotted;
 use super::export::Progress;
 use super::line::Line;
 use super::{Action, Place};
@@ -18,6 +19,13 @@ pub enum Overlay {
         of: Place,
         /// Lines scrolled.
         scrolled: usize,
+    },
+    /// What there is to look at in a clip.
+    Doubts {
+        /// The places.
+        list: Vec<Spotted>,
+        /// Which is chosen.
+        chosen: usize,
     },
     /// A line to type.
     Prompt(Box<Prompt>),
@@ -38,6 +46,7 @@ impl Overlay {
     pub const fn place(&self) -> Place {
         match self {
             Self::Help { .. } => Place::Help,
+            Self::Doubts { .. } => Place::Doubts,
             Self::Prompt(_) => Place::Prompt,
             Self::Confirm(_) => Place::Confirm,
             Self::Export { .. } => Place::Export,
@@ -78,6 +87,11 @@ pub enum Purpose {
         old: Option<Key>,
         /// The time of the key of speech that it takes the place of.
         replaces: Option<f64>,
+    },
+    /// Words for marked places, from one of them on.
+    Words {
+        /// The number of the place.
+        from: usize,
     },
     /// An edit of a stretch of the record.
     Range {

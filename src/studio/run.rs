@@ -23,6 +23,7 @@ use crate::disk::{Fault, Result};
 pub fn run(folder: &Path, exporter: Exporter) -> Result<()> {
     let state = State::new(folder, Colours::of_environment())?;
     let mut studio = Studio::new(state, exporter);
+    studio.find_voice();
     // A folder that is a lesson opens at once.
     if studio.state.lessons.first().is_some_and(|l| l.root == folder) {
         studio.handle(super::Action::Open);
@@ -87,7 +88,8 @@ impl Desk for Studio {
 
 /// Something from outside.
 enum Event {
-    Terminal(event::Event),
+    /// A key or the like, and when it came.
+    Terminal(event::Event, Instant),
     /// The terminal is gone, or the program was asked to end.
     End,
 }
@@ -103,17 +105,16 @@ pub(super) fn turn(desk: &mut dyn Desk, reports: &Receiver<Report>) -> Result<()
     // What is drawn first is there before the first key is waited for.
     screen.draw(|frame| desk.draw(frame))?;
     thread::spawn(move || read_keys(&sender));
-    let mut last = Instant::now();
+    let mut clock = Clock(Instant::now());
     while !desk.is_over() {
         let tick = match desk.beat() {
             Some(seconds) => crossbeam_channel::after(Duration::from_secs_f64(seconds.clamp(0.001, 1.0))),
             None => never(),
         };
-        let was_still = desk.beat().is_none();
         let mut changed = false;
         select! {
             recv(events) -> event => match event {
-                Ok(event) => match take(desk, &mut screen, event)? {
+                Ok(event) => match take(desk, &mut screen, &mut clock, event)? {
                     Some(new) => changed |= new,
                     None => return Ok(()),
                 },
@@ -127,7 +128,7 @@ pub(super) fn turn(desk: &mut dyn Desk, reports: &Receiver<Report>) -> Result<()
         }
         // Many queued events, one drawing.
         while let Ok(event) = events.try_recv() {
-            match take(desk, &mut screen, event)? {
+            match take(desk, &mut screen, &mut clock, event)? {
                 Some(new) => changed |= new,
                 None => return Ok(()),
             }
@@ -137,11 +138,7 @@ pub(super) fn turn(desk: &mut dyn Desk, reports: &Receiver<Report>) -> Result<()
             changed = true;
         }
         // Time passes by the clock, not by ticks: a frame that comes too late is left out.
-        let now = Instant::now();
-        if !was_still {
-            changed |= desk.advance((now - last).as_secs_f64());
-        }
-        last = now;
+        changed |= clock.pass(desk, Instant::now());
         if desk.takes_redraw() {
             screen.anew()?;
             changed = true;
@@ -153,29 +150,44 @@ pub(super) fn turn(desk: &mut dyn Desk, reports: &Receiver<Report>) -> Result<()
     Ok(())
 }
 
+/// Until when time has passed for a desk.
+struct Clock(Instant);
+
+impl Clock {
+    /// Lets time pass until an instant, if it does; whether there is something new to show. While nothing moves, time
+    /// goes by unseen.
+    fn pass(&mut self, desk: &mut dyn Desk, until: Instant) -> bool {
+        let seconds = until.saturating_duration_since(self.0).as_secs_f64();
+        self.0 = self.0.max(until);
+        desk.beat().is_some() && desk.advance(seconds)
+    }
+}
+
 /// Takes an event: whether something changed; nothing where it is the end.
-fn take(desk: &mut dyn Desk, screen: &mut Screen, event: Event) -> Result<Option<bool>> {
+fn take(desk: &mut dyn Desk, screen: &mut Screen, clock: &mut Clock, event: Event) -> Result<Option<bool>> {
     Ok(match event {
         Event::End => None,
-        Event::Terminal(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
-            Some(keys::name_of(&key).is_some_and(|name| desk.key(&name)))
+        Event::Terminal(event::Event::Key(key), at) if key.kind != KeyEventKind::Release => {
+            // What moves has moved on until the very instant of the key, however long the last drawing took.
+            let moved = clock.pass(desk, at);
+            Some(keys::name_of(&key).is_some_and(|name| desk.key(&name)) || moved)
         }
-        Event::Terminal(event::Event::Paste(text)) => {
+        Event::Terminal(event::Event::Paste(text), _) => {
             desk.paste(&text);
             Some(true)
         }
-        Event::Terminal(event::Event::Resize(..)) => {
+        Event::Terminal(event::Event::Resize(..), _) => {
             screen.anew()?;
             Some(true)
         }
-        Event::Terminal(_) => Some(false),
+        Event::Terminal(..) => Some(false),
     })
 }
 
 fn read_keys(sender: &Sender<Event>) {
     loop {
         let event = match event::read() {
-            Ok(event) => Event::Terminal(event),
+            Ok(event) => Event::Terminal(event, Instant::now()),
             Err(_) => Event::End,
         };
         let ends = matches!(event, Event::End);

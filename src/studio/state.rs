@@ -1,11 +1,13 @@
 //! Everything the studio knows: which lessons there are, which is open, what is on the desk, what lies on top.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use super::Place;
+use super::aligning::Aligning;
 use super::editor::{Editor, Left};
 use super::face_desk::FaceDesk;
+use super::listening::{Listened, SoundView};
 use super::look::Colours;
 use super::overlay::Overlay;
 use crate::disk::Result;
@@ -32,6 +34,18 @@ pub struct State {
     pub message: Option<Message>,
     /// What is being waited for.
     pub busy: Option<String>,
+    /// The search for times that is under way.
+    pub aligning: Option<Aligning>,
+    /// How sound is shown.
+    pub view: SoundView,
+    /// Whether the pitch of the voice is shown.
+    pub tone: bool,
+    /// How many seconds after the sound a tap comes, once that was measured.
+    pub latency: Option<f64>,
+    /// What is to be heard, until the studio's voice has taken it.
+    pub hear: Option<Hear>,
+    /// Whether there is a player for sound on this side of the connection.
+    pub can_hear: bool,
     /// What the terminal can show.
     pub colours: Colours,
     /// Whether it was said that playing is silent.
@@ -66,6 +80,28 @@ pub struct Open {
     pub chosen: usize,
     /// Where the author was on the clips that she has left, by their numbers.
     pub left: BTreeMap<usize, Left>,
+    /// The clips whose times were looked for: what was taken back is not done again unasked.
+    pub aligned: BTreeSet<usize>,
+    /// What was heard of the clips so far, by their numbers.
+    pub heard: BTreeMap<usize, Listened>,
+    /// What the last search found odd of a clip as a whole.
+    pub notes: BTreeMap<usize, Vec<String>>,
+}
+
+/// Something to be heard, or silence.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Hear {
+    /// The sound of the clip on the desk, from a time in seconds, at a speed.
+    Clip {
+        /// Seconds.
+        from: f64,
+        /// 1 is as it was spoken.
+        speed: f64,
+    },
+    /// Clicks at these times, in seconds.
+    Clicks(Vec<f64>),
+    /// Nothing more.
+    Nothing,
 }
 
 /// Something to say.
@@ -75,6 +111,23 @@ pub struct Message {
     pub text: String,
     /// Whether something could not be done.
     pub is_fault: bool,
+}
+
+impl Open {
+    /// A lesson that was just opened, or does not open.
+    #[must_use]
+    pub fn new(name: String, lesson: Result<Lesson>, findings: Vec<Finding>) -> Self {
+        Self {
+            name,
+            lesson,
+            findings,
+            chosen: 0,
+            left: BTreeMap::new(),
+            aligned: BTreeSet::new(),
+            heard: BTreeMap::new(),
+            notes: BTreeMap::new(),
+        }
+    }
 }
 
 impl State {
@@ -95,6 +148,12 @@ impl State {
             overlays: Vec::new(),
             message: None,
             busy: None,
+            aligning: None,
+            view: SoundView::default(),
+            tone: false,
+            latency: None,
+            hear: None,
+            can_hear: false,
             colours,
             said_silent: false,
             leaving: false,
@@ -105,7 +164,12 @@ impl State {
     /// Where a key is pressed: on top, or on the screen.
     #[must_use]
     pub fn place(&self) -> Place {
-        self.overlays.last().map_or_else(|| self.screen(), Overlay::place)
+        let is_tapping = self.editor.as_ref().is_some_and(|e| e.tapping.is_some());
+        match (self.overlays.last(), self.screen()) {
+            (Some(overlay), _) => overlay.place(),
+            (None, Place::Timeline) if is_tapping => Place::Tapping,
+            (None, screen) => screen,
+        }
     }
 
     /// The screen below everything that lies on top.
@@ -136,6 +200,12 @@ impl State {
     #[must_use]
     pub fn clip(&self) -> Option<&Clip> {
         self.lesson()?.clips.get(self.editor.as_ref()?.clip)
+    }
+
+    /// What was heard of the clip on the desk.
+    #[must_use]
+    pub fn heard(&self) -> Option<&Listened> {
+        self.open.as_ref()?.heard.get(&self.editor.as_ref()?.clip)
     }
 
     /// Whether there are changes that are not in the files.

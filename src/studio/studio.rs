@@ -1,6 +1,5 @@
 //! The studio without a terminal: keys and reports go in, a frame comes out.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
@@ -8,19 +7,24 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 
+use super::aligning::{self, Aligner};
 use super::draw::{self, FaceLayout, Layout, Pictures};
 use super::execute::{Job, SILENT, execute};
 use super::export::{Exporter, Progress};
 use super::face_desk::FaceDesk;
+use super::listening::Tone;
 use super::overlay::Overlay;
 use super::picture::FacePicture;
+use super::state::Hear;
 use super::state::{Open, State};
-use super::{Action, Place, face_edits, keys, work};
+use super::voice::Voice;
+use super::{Action, Place, face_edits, keys, places, tap_desk, work};
 use crate::disk::Result;
 use crate::drawing::Drawing;
 use crate::face::Created;
 use crate::photo::Photo;
 use crate::project::{Finding, Lesson};
+use crate::speech::{Alignment, Heard, Spectrogram};
 
 /// What a thread has to tell.
 #[derive(Debug)]
@@ -42,6 +46,22 @@ pub enum Report {
         clip: usize,
         /// Its loudest sample.
         loudest: f32,
+    },
+    /// The search for times has ended: each clip's number with what was found.
+    Aligned {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// What was found.
+        found: Vec<(usize, Result<Alignment>)>,
+    },
+    /// Something was heard in the sound of a clip; nothing where listening broke off.
+    Listened {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// What.
+        what: Option<Listening>,
     },
     /// The photo of a face was read, or cannot be.
     PhotoRead {
@@ -76,11 +96,24 @@ pub enum Report {
     Exported(Result<String>),
 }
 
+/// What was listened for.
+#[derive(Debug)]
+pub enum Listening {
+    /// The spectrogram.
+    Spectrogram(Arc<Spectrogram>),
+    /// The pitch.
+    Tone(Arc<Tone>),
+    /// Where syllables are.
+    Syllables(Heard),
+}
+
 /// The studio: state, work under way, and the picture of the face.
 pub struct Studio {
     /// Everything it knows.
     pub state: State,
     exporter: Arc<Mutex<Exporter>>,
+    aligner: Aligner,
+    voice: Option<Voice>,
     reports: (Sender<Report>, Receiver<Report>),
     /// Threads that have not reported their end.
     under_way: usize,
@@ -99,6 +132,8 @@ impl Studio {
         Self {
             state,
             exporter: Arc::new(Mutex::new(exporter)),
+            aligner: Aligner::default(),
+            voice: None,
             reports: unbounded(),
             under_way: 0,
             face: FacePicture::default(),
@@ -106,6 +141,19 @@ impl Studio {
             stage: FacePicture::default(),
             too_small: false,
         }
+    }
+
+    /// Finds times by another aligner.
+    #[must_use]
+    pub fn with_aligner(mut self, aligner: Aligner) -> Self {
+        self.aligner = aligner;
+        self
+    }
+
+    /// Lets itself be heard, where there is a player for sound on this side of the connection.
+    pub(super) fn find_voice(&mut self) {
+        self.voice = Voice::found();
+        self.state.can_hear = self.voice.is_some();
     }
 
     /// Takes a key by its name in the key table. Keys that mean nothing here are let pass.
@@ -129,8 +177,21 @@ impl Studio {
 
     /// Carries out an action.
     pub fn handle(&mut self, action: Action) {
-        if let Some(job) = execute(&mut self.state, action) {
+        for job in execute(&mut self.state, action) {
             self.start(job);
+        }
+        self.speak();
+    }
+
+    /// Lets be heard what is to be heard.
+    fn speak(&mut self) {
+        let Some(hear) = self.state.hear.take() else { return };
+        let sound = self.state.clip().and_then(|c| c.sound.clone());
+        match (&self.voice, hear, sound) {
+            (Some(voice), Hear::Clip { from, speed }, Some(sound)) => voice.play(sound, from, speed),
+            (Some(voice), Hear::Clicks(times), _) => voice.click(times),
+            (Some(voice), ..) => voice.stop(),
+            (None, ..) => {}
         }
     }
 
@@ -143,6 +204,11 @@ impl Studio {
 
     /// Lets so many seconds of playing pass; whether another frame is due.
     pub fn advance(&mut self, seconds: f64) -> bool {
+        if self.state.editor.as_ref().is_some_and(|e| e.tapping.is_some()) {
+            let new = tap_desk::advance(&mut self.state, seconds);
+            self.speak();
+            return new;
+        }
         let clips = self.state.open.as_ref().and_then(|o| o.lesson.as_ref().ok()).map(|l| &l.clips);
         let (Some(clips), Some(editor)) = (clips, &mut self.state.editor) else { return false };
         let Some(at) = editor.playing.map(|t| t + seconds) else { return false };
@@ -163,6 +229,9 @@ impl Studio {
     pub fn beat(&self) -> Option<f64> {
         let editor = self.state.editor.as_ref()?;
         let fps = editor.timeline.fps();
+        if let Some(tapping) = &editor.tapping {
+            return tapping.beat(fps);
+        }
         editor.playing.map(|at| ((at * fps + 1e-6).floor() + 1.0) / fps - at)
     }
 
@@ -192,7 +261,7 @@ impl Studio {
                         lesson.lost, lesson.recovered
                     ));
                 }
-                self.state.open = Some(Open { name, lesson: *lesson, findings, chosen: 0, left: BTreeMap::new() });
+                self.state.open = Some(Open::new(name, *lesson, findings));
             }
             Report::Outlined { root, clip, loudest } => {
                 self.under_way -= 1;
@@ -202,6 +271,23 @@ impl Studio {
                 }
                 if let Some(editor) = self.state.editor.as_mut().filter(|e| e.clip == clip) {
                     editor.loudest = Some(loudest);
+                }
+            }
+            Report::Aligned { root, found } => {
+                self.under_way -= 1;
+                if let Some(job) = aligning::found(&mut self.state, &root, found) {
+                    self.start(job);
+                }
+            }
+            Report::Listened { root, clip, what } => {
+                self.under_way -= 1;
+                let open = self.state.open.as_mut().filter(|o| o.lesson.as_ref().is_ok_and(|l| l.root == root));
+                let Some(heard) = open.map(|o| o.heard.entry(clip).or_default()) else { return };
+                match what {
+                    Some(Listening::Spectrogram(spectrogram)) => heard.spectrogram = Some(spectrogram),
+                    Some(Listening::Tone(tone)) => heard.tone = Some(tone),
+                    Some(Listening::Syllables(found)) => places::found(&mut self.state, &root, clip, &found),
+                    None => self.state.refuse("this sound cannot be listened to"),
                 }
             }
             Report::PhotoRead { root, face, photo } => match *photo {
@@ -305,6 +391,6 @@ impl Studio {
 
     fn start(&mut self, job: Job) {
         self.under_way += 1;
-        work::start(job, self.reports.0.clone(), Arc::clone(&self.exporter));
+        work::start(job, self.reports.0.clone(), Arc::clone(&self.exporter), self.aligner.clone());
     }
 }

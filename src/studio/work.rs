@@ -1,4 +1,4 @@
-//! Work in threads: opening a lesson, the outline of its sounds, exports. Each reports through one channel.
+//! Work in threads: opening a lesson, the outline of its sounds, times, frequencies and pitch, exports. Each reports through one channel.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -7,18 +7,21 @@ use std::thread;
 
 use crossbeam_channel::Sender;
 
+use super::aligning::Aligner;
 use super::execute::Job;
 use super::export::Exporter;
-use super::studio::Report;
+use super::listening::Tone;
+use super::studio::{Listening, Report};
 use crate::disk::{Fault, Result};
 use crate::drawing::Drawing;
 use crate::face::{Anchors, Created, Face};
 use crate::geometry::Point;
 use crate::photo::{Photo, Stages};
 use crate::project::{Lesson, check};
+use crate::speech::{Spectrogram, nuclei, pitch};
 
 /// Starts a job. Whatever becomes of it, it reports its end.
-pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Exporter>>) {
+pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Exporter>>, aligner: Aligner) {
     // A report that nobody waits for any more is dropped.
     thread::spawn(move || {
         let _ = match job {
@@ -37,6 +40,22 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                 // One column over everything builds the whole outline.
                 let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();
                 reports.send(Report::Outlined { root, clip, loudest: high.max(-low) })
+            }
+            Job::Align { root, job } => {
+                let found = catch_unwind(AssertUnwindSafe(|| aligner.run(&job)));
+                reports.send(Report::Aligned { root, found: found.unwrap_or_default() })
+            }
+            Job::Spectrogram { root, clip, sound } => {
+                let made = catch_unwind(|| Listening::Spectrogram(Arc::new(Spectrogram::of(&sound))));
+                reports.send(Report::Listened { root, clip, what: made.ok() })
+            }
+            Job::Pitch { root, clip, sound } => {
+                let made = catch_unwind(|| Listening::Tone(Arc::new(Tone::new(pitch(&sound)))));
+                reports.send(Report::Listened { root, clip, what: made.ok() })
+            }
+            Job::Nuclei { root, clip, sound } => {
+                let made = catch_unwind(|| Listening::Syllables(nuclei(&sound)));
+                reports.send(Report::Listened { root, clip, what: made.ok() })
             }
             Job::Photo { root, face, path, eyes } => {
                 let read = catch_unwind(|| Photo::read(&path)).unwrap_or_else(|_| Err(broken_photo()));

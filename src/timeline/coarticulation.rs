@@ -20,6 +20,10 @@ const FULL_TARGET: f64 = 0.13;
 /// However short its time, this much of a target is reached.
 const LEAST_TARGET: f64 = 0.4;
 
+/// How long lips need to part after a stop is released, in seconds, and the share of the next sound that this may take.
+const PARTING: f64 = 0.05;
+const LEAST_REST: f64 = 0.4;
+
 /// A closure's usual length, where its slot allows.
 const CLOSURE: f64 = 0.07;
 
@@ -41,17 +45,24 @@ pub(super) fn of_speech(spoken: &[Spoken], frame: f64, preset: MouthPreset) -> V
         }
         let length = syllable.end - syllable.start;
         for (i, (share, shape)) in syllable.shapes.iter().enumerate() {
-            let start = syllable.start + share * length;
+            let mut start = syllable.start + share * length;
             let leaves = match (syllable.shapes.get(i + 1), next) {
                 (Some((share, _)), _) => syllable.start + share * length,
                 (None, Some(next)) if next.start - syllable.end <= BREATH => next.start,
                 (None, _) => syllable.end,
             };
             let slot = leaves - start;
+            // Lips that are known to be closed until here are apart only a little later.
+            let parts = syllable.exact && i > 0 && syllable.shapes[i - 1].1.closes() && !shape.closes();
+            if parts {
+                start += PARTING.min(LEAST_REST * slot.max(0.0));
+            }
             let glides = syllable.shapes.get(i + 1).is_some_and(|(_, to)| !to.closes() && !shape.closes());
             let travel = if glides { GLIDE } else { TRAVEL }.min(0.6 * slot.max(0.0));
             let last = i + 1 == syllable.shapes.len() && next.is_none_or(|n| n.start - syllable.end > BREATH);
-            let until = if shape.closes() {
+            let until = if shape.closes() && syllable.exact && i + 1 < syllable.shapes.len() {
+                start + slot.max(frame)
+            } else if shape.closes() {
                 start + CLOSURE.min(0.4 * slot).max(frame)
             } else if last {
                 leaves

@@ -30,6 +30,9 @@ pub struct Spoken {
     pub end: f64,
     /// Shapes in order, each with the share of the whole at which it starts: 0 for the first, growing, below 1.
     pub shapes: Vec<(f64, MouthShape)>,
+    /// Whether the shapes' times were found in the sound and not shared out: lips are then closed until the next
+    /// shape starts, and open from there.
+    pub exact: bool,
 }
 
 /// Who set a key of the mouth.
@@ -207,7 +210,7 @@ mod tests {
     }
 
     fn ba(start: f64, length: f64) -> Spoken {
-        Spoken { start, end: start + length, shapes: vec![(0.0, MouthShape::M), (0.464, MouthShape::A)] }
+        Spoken { start, end: start + length, shapes: vec![(0.0, MouthShape::M), (0.464, MouthShape::A)], exact: false }
     }
 
     #[test]
@@ -217,6 +220,15 @@ mod tests {
         assert_eq!(line.mouth(0.5).0.closure, 1.0);
         assert!(line.mouth(0.7).0.opening() > 1.0);
         assert_eq!(line.mouth(1.2).0, MouthPose::REST);
+    }
+
+    #[test]
+    fn a_closure_whose_end_is_known_lasts_until_then_and_opens_from_there() {
+        let line = timeline(&[Spoken { exact: true, ..ba(0.5, 0.4) }], 100.0, &Score::default());
+        let release = 0.5 + 0.464 * 0.4;
+        assert_eq!(line.mouth(release - 0.01).0.opening(), 0.0);
+        assert!(line.mouth(release + 0.02).0.opening() > 0.1);
+        assert!(line.mouth(release + 0.07).0.opening() > 1.0);
     }
 
     #[test]
@@ -290,7 +302,8 @@ mod tests {
 
     #[test]
     fn n_keeps_the_corners_of_the_shape_before_it() {
-        let yin = Spoken { start: 0.3, end: 0.7, shapes: vec![(0.0, MouthShape::I), (0.6, MouthShape::N)] };
+        let yin =
+            Spoken { start: 0.3, end: 0.7, shapes: vec![(0.0, MouthShape::I), (0.6, MouthShape::N)], exact: false };
         let line = timeline(&[yin], 25.0, &Score::default());
         let keys = line.mouth_keys();
         let n = keys.iter().find(|k| k.shape == Some(MouthShape::N)).unwrap();

@@ -155,8 +155,7 @@ fn evenly(units: &[Unit], frames: usize) -> Vec<usize> {
 
 fn best(model: &Model, lesson: &Lesson, piece: &corpus::Piece) -> Vec<usize> {
     let (n, length) = (piece.units.len(), piece.frames.len());
-    let terms: Vec<Vec<Terms>> =
-        piece.units.iter().map(|u| model.of(*u).iter().map(Terms::of).collect()).collect();
+    let terms: Vec<Vec<Terms>> = piece.units.iter().map(|u| model.of(*u).iter().map(Terms::of).collect()).collect();
     let mut before = vec![f32::NEG_INFINITY; n];
     let mut moved = vec![vec![false; n]; length];
     for t in 0..length {

@@ -4,7 +4,10 @@
 
 use std::path::Path;
 
-use lianpu::studio::{Colours, Exporter, State, Studio};
+use lianpu::disk::Fault;
+use lianpu::project::AlignJob;
+use lianpu::speech::{Alignment, Note, SpokenPhone, SpokenSyllable};
+use lianpu::studio::{Aligner, Colours, Exporter, State, Studio};
 use lianpu::timeline::{KeyValue, Track};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -51,6 +54,30 @@ pub fn lesson(root: &Path, times: Option<[(f64, f64); 2]>, more: &[(&str, &str)]
 pub const TIMES: [(f64, f64); 2] = [(0.3, 0.75), (0.77, 1.28)];
 pub const TOUCHING: [(f64, f64); 2] = [(0.3, 0.75), (0.75, 1.28)];
 
+/// What an aligner might find of the lesson: 好 is not sure, and something follows that the script does not have.
+pub fn found() -> Alignment {
+    let phone = |phone, start, end| SpokenPhone { phone, start, end };
+    Alignment {
+        syllables: vec![
+            SpokenSyllable {
+                start: 0.31,
+                end: 0.74,
+                confidence: 0.97,
+                heard: true,
+                phones: vec![phone("n", 0.31, 0.4), phone("i", 0.4, 0.6), phone("n", 0.6, 0.74)],
+            },
+            SpokenSyllable {
+                start: 0.78,
+                end: 1.12,
+                confidence: 0.41,
+                heard: true,
+                phones: vec![phone("h", 0.78, 0.86), phone("a", 0.86, 1.0), phone("o", 1.0, 1.12)],
+            },
+        ],
+        notes: vec![Note::NotInScript { before: 2, start: 1.2, end: 1.5 }],
+    }
+}
+
 pub const SCORE: (&str, &str) = (
     "score.toml",
     "seed = 5\n\n[[key]]\ntrack = \"emotion\"\ntime = 0.0\nvalue = { neutral = 1.0 }\n\n[[key]]\ntrack = \"emotion\"\n\
@@ -73,7 +100,21 @@ impl Bench {
     pub fn with(times: Option<[(f64, f64); 2]>, more: &[(&str, &str)], exporter: Exporter) -> Self {
         let dir = tempfile::tempdir().unwrap();
         lesson(&dir.path().join("nihao"), times, more);
-        let mut bench = Self { studio: Studio::new(State::new(dir.path(), Colours::None).unwrap(), exporter), dir };
+        let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), exporter);
+        // The tones of this lesson are no voice.
+        let deaf = Aligner::new(|_| vec![(0, Err(Fault::new("no voice is heard").help("record it again")))]);
+        let mut bench = Self { studio: studio.with_aligner(deaf), dir };
+        bench.keys("Enter Enter");
+        bench
+    }
+
+    /// The same with an aligner that finds this.
+    pub fn aligning(times: Option<[(f64, f64); 2]>, found: Alignment) -> Self {
+        let dir = tempfile::tempdir().unwrap();
+        lesson(&dir.path().join("nihao"), times, &[]);
+        let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+        let aligner = Aligner::new(move |_: &AlignJob| vec![(0, Ok(found.clone()))]);
+        let mut bench = Self { studio: studio.with_aligner(aligner), dir };
         bench.keys("Enter Enter");
         bench
     }

@@ -38,7 +38,12 @@ pub(super) fn panel(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Cli
     if area.width >= ROOMY {
         let keys = Rect { x: left.right() + 3, width: area.right() - left.right() - 3, ..area };
         let widest = help_of(Place::Timeline).map(|(names, _)| cells(&names)).max().unwrap_or(0);
-        for ((names, help), y) in help_of(Place::Timeline).zip(keys.y..keys.bottom()) {
+        let all: Vec<_> = help_of(Place::Timeline).collect();
+        let is_cut = all.len() > usize::from(keys.height);
+        // Of too many the last line says where the others are.
+        let room = usize::from(keys.height).saturating_sub(usize::from(is_cut));
+        let rest = is_cut.then(|| ("?".to_owned(), "the other keys"));
+        for ((names, help), y) in all.into_iter().take(room).chain(rest).zip(keys.y..keys.bottom()) {
             put(buffer, keys.x, y, widest, &names, BOLD);
             put_short(buffer, keys.x + widest + 2, y, keys.width.saturating_sub(widest + 2), help, DIM);
         }
@@ -96,8 +101,17 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
             (pinyin, zhuyin) => format!(" {pinyin} {zhuyin}"),
         };
         let guessed = Editor::is_guessed(clip, index);
-        let style = if guessed { colours.warning() } else { Style::new() };
-        let mark = if guessed { "   guessed?" } else { "" };
+        let confidence = clip.confidence(index);
+        let doubt = clip.doubts().into_iter().find(|d| d.syllable == Some(index) && !guessed);
+        let doubtful = doubt.is_some();
+        let style = if guessed || doubtful { colours.warning() } else { Style::new() };
+        let mark = match confidence {
+            _ if clip.score.pins.contains(&index) => "   by hand".to_owned(),
+            _ if guessed => "   guessed?".to_owned(),
+            Some(_) if doubt.is_some_and(|d| !d.heard) => "   not heard!".to_owned(),
+            Some(c) => format!("   {:.0} % sure{}", c * 100.0, if doubtful { "!" } else { "" }),
+            None => String::new(),
+        };
         let text = format!("{}{reading}   {:.3} to {:.3} s{mark}", syllable.text, interval.start, interval.end);
         lines.push((text, style));
     }

@@ -83,7 +83,8 @@ fn hints(buffer: &mut Buffer, row: Rect, foot: Foot<'_>) {
 /// Whether a hint helps on this lane of this lesson.
 fn belongs(hint: &str, foot: Foot<'_>) -> bool {
     match hint {
-        "start" | "end" | "read" | "syllable" => foot.lane == Some(Lane::Syllables),
+        "start" | "end" | "read" | "look at" | "mark" | "tap" | "syllable" => foot.lane == Some(Lane::Syllables),
+        "align" => foot.opens && foot.lane.is_none_or(|l| l == Lane::Syllables),
         "add" | "change" | "delete" | "key" => foot.lane.is_some_and(|l| l != Lane::Syllables),
         "choose" | "open" => foot.opens || foot.place != Place::Lesson,
         "save" | "export" => foot.opens || foot.place == Place::Confirm,
@@ -98,8 +99,10 @@ fn rank(hint: &str) -> u8 {
         "play" | "undo" | "save" => 1,
         "lane" => 3,
         "syllable" | "key" => 4,
-        "export" => 5,
-        "zoom" => 6,
+        "align" | "look at" => 5,
+        "export" => 6,
+        "zoom" => 7,
+        "tap" | "mark" => 8,
         _ => 2,
     }
 }

@@ -3,6 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::has_no_room;
+use crate::studio::listening::SoundView;
 use crate::studio::picture::FacePicture;
 use crate::studio::state::State;
 use crate::studio::{Lane, Place};
@@ -14,6 +15,12 @@ const NAMES: u16 = 9;
 /// Cells right of the lanes, for the letters of the curves.
 const LETTERS: u16 = 5;
 
+/// Rows from which on there is room for every lane of keys, and for wave and spectrogram both.
+const TALL: u16 = 26;
+
+/// Columns a phone needs in the mean for its name to be read.
+const READABLE: f64 = 2.2;
+
 /// The places of the timeline's parts.
 #[derive(Debug, Clone)]
 pub(in crate::studio) struct Layout {
@@ -21,9 +28,16 @@ pub(in crate::studio) struct Layout {
     pub face: Rect,
     pub panel: Rect,
     pub ruler: Rect,
+    /// The outline of the sound; no height where it is not shown.
     pub wave: Rect,
+    /// Its frequencies; no height where they are not shown.
+    pub spectrum: Rect,
+    /// The pitch of the voice; no height where it is not shown.
+    pub tone: Rect,
     pub said: Rect,
     pub pinyin: Rect,
+    /// The phones; no height where they cannot be read.
+    pub phones: Rect,
     pub mouth: Rect,
     pub curves: Rect,
     /// The lanes of keys below; none of its own where one row shows them all.
@@ -37,13 +51,30 @@ impl Layout {
             return None;
         }
         let editor = state.editor.as_ref()?;
+        let columns = area.width - NAMES - LETTERS;
+        let shows_phones = state.clip().and_then(|c| editor.columns_a_phone(c, columns)).is_some_and(|c| c >= READABLE);
         // Head and foot take a line each; ruler, said, pinyin and mouth one each.
         let room = area.height - 2;
-        let key_rows = if room >= 26 { 4 } else { 1 };
+        let is_tall = room >= TALL;
+        let key_rows = if is_tall { 4 } else { 1 };
         let least = 4 + key_rows;
         let spare = room.saturating_sub(least + 2 + 3 + 12);
-        let (curves, wave) = ((3 + spare * 3 / 10).min(12), (2 + spare / 5).min(6));
-        let top = room - least - curves - wave;
+        let (mut curves, wave) = ((3 + spare * 3 / 10).min(12), (2 + spare / 5).min(6));
+        let phones = u16::from(shows_phones);
+        // On a low screen the curves give a row to the phones: zooming leaves the face alone.
+        curves -= phones;
+        let (wave, spectrum) = match state.view {
+            SoundView::Wave => (wave, 0),
+            SoundView::Both if is_tall => (wave, wave + 2),
+            // Frequencies need more rows than an outline.
+            _ => (0, wave + u16::from(room >= 20)),
+        };
+        let tone = match state.tone {
+            true if room >= 20 => 3 + u16::from(is_tall),
+            true => 2,
+            false => 0,
+        };
+        let top = room - least - phones - curves - wave - spectrum - tone;
         // The face has its shape, the panel the rest.
         let upper = Rect::new(area.x, area.y + 1, area.width, top);
         let most = upper.width.saturating_sub(40);
@@ -57,14 +88,14 @@ impl Layout {
             y += height;
             rows
         };
-        let (ruler, wave, said) = (next(1), next(wave), next(1));
-        let (pinyin, mouth, curves) = (next(1), next(1), next(curves));
+        let (ruler, wave, spectrum, tone, said) = (next(1), next(wave), next(spectrum), next(tone), next(1));
+        let (pinyin, phones, mouth, curves) = (next(1), next(phones), next(1), next(curves));
         let own = |lane: &Lane| matches!(lane, Lane::Keys(t) if *t != Track::Mouth);
         let keys = match key_rows {
             1 => vec![(Some(editor.lane).filter(own), next(1))],
             _ => Lane::ALL.iter().filter(|l| own(l)).map(|l| (Some(*l), next(1))).collect(),
         };
-        Some(Self { area, face, panel, ruler, wave, said, pinyin, mouth, curves, keys })
+        Some(Self { area, face, panel, ruler, wave, spectrum, tone, said, pinyin, phones, mouth, curves, keys })
     }
 
     /// How many columns of time there are.

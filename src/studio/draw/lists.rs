@@ -6,6 +6,7 @@ use ratatui::style::{Modifier, Style};
 
 use super::{BOLD, CHOSEN, DIM, cells, head, put, put_short};
 use crate::project::{Clip, Finding, Lesson};
+use crate::studio::aligning;
 use crate::studio::look::Colours;
 use crate::studio::state::{Open, State};
 
@@ -98,8 +99,9 @@ fn facts(clip: &Clip) -> String {
         1 => "1 syllable".to_owned(),
         many => format!("{many} syllables"),
     }];
-    if clip.timing.guessed && clip.score.pins.len() < clip.syllables.len() {
-        facts.push("guessed?".into());
+    let origin = aligning::origin(clip);
+    if !origin.is_empty() {
+        facts.push(origin);
     }
     match clip.score.keys.len() {
         0 => {}

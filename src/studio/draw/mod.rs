@@ -8,9 +8,13 @@ mod keyrows;
 mod layout;
 mod lists;
 mod overlays;
+mod phones;
 mod said;
 mod sound;
+mod spectrum;
+mod tap;
 mod timeline;
+mod tone;
 
 pub(super) use face::FaceLayout;
 pub(super) use foot::{Foot, foot};

@@ -7,6 +7,7 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::lists::folded;
 use super::{BOLD, CHOSEN, DIM, Layout, cells, put, put_short};
+use crate::studio::aligning::Spotted;
 use crate::studio::export::Progress;
 use crate::studio::keys::{Place, help_of};
 use crate::studio::overlay::{Overlay, Prompt};
@@ -19,6 +20,10 @@ pub(super) fn overlays(buffer: &mut Buffer, area: Rect, layout: Option<&Layout>,
         caret = match overlay {
             Overlay::Help { of, scrolled } => {
                 help(buffer, area, *of, *scrolled);
+                None
+            }
+            Overlay::Doubts { list, chosen } => {
+                doubts(buffer, area, list, *chosen);
                 None
             }
             Overlay::Prompt(asked) => Some(prompt(buffer, area, layout, asked, state)),
@@ -121,6 +126,27 @@ fn prompt(buffer: &mut Buffer, area: Rect, layout: Option<&Layout>, prompt: &Pro
         put(buffer, inside.x, y, inside.width, line, style);
     }
     Position::new(inside.x + 2 + cells(&before[start..]), inside.y)
+}
+
+/// The places to look at, one a line.
+fn doubts(buffer: &mut Buffer, area: Rect, list: &[Spotted], chosen: usize) {
+    const WIDEST: u16 = 60;
+    let time = |s: &Spotted| s.at.map_or(String::new(), |at| format!("{at:.2} s"));
+    let times = list.iter().map(|s| cells(&time(s))).max().unwrap_or(0) + 2;
+    let texts = list.iter().map(|s| cells(&s.text)).max().unwrap_or(0);
+    let width = (times + texts).clamp(40, WIDEST.min(area.width.saturating_sub(8)).max(40));
+    let height = (list.len() as u16).min(area.height.saturating_sub(4));
+    let title = format!("{} to look at: Enter goes there", list.len());
+    let inside = boxed(buffer, area, width, height, &title);
+    let first = (chosen + 1).saturating_sub(usize::from(height));
+    for ((index, spotted), y) in list.iter().enumerate().skip(first).zip(inside.y..inside.bottom()) {
+        let style = if index == chosen { CHOSEN } else { Style::new() };
+        if index == chosen {
+            buffer.set_style(Rect::new(inside.x, y, inside.width, 1), CHOSEN);
+        }
+        put(buffer, inside.x, y, times, &time(spotted), style);
+        put_short(buffer, inside.x + times, y, inside.width.saturating_sub(times), &spotted.text, style.patch(BOLD));
+    }
 }
 
 fn confirm(buffer: &mut Buffer, area: Rect) {

@@ -10,10 +10,18 @@ use crate::studio::look::Colours;
 
 pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, clip: &Clip, colours: Colours) {
     let (window, columns) = (editor.window, layout.columns());
-    if clip.intervals().is_empty() {
-        put(buffer, layout.said.x, layout.said.y, columns, "no script: write a script.txt", DIM);
+    if clip.intervals().is_empty() && editor.places.is_empty() {
+        let how = if clip.sound.is_some() {
+            "no script: m marks where syllables are heard"
+        } else {
+            "no script: write a script.txt"
+        };
+        put(buffer, layout.said.x, layout.said.y, columns, how, DIM);
         return;
     }
+    places(buffer, layout, editor);
+    let doubts = clip.doubts();
+    beside(buffer, layout, editor, &doubts, colours);
     let inside = |i: &&crate::timing::Interval| i.end > window.from && i.start < window.to();
     let many = clip.intervals().iter().filter(inside).count();
     if many > usize::from(columns) {
@@ -37,6 +45,7 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         }
         let chosen = editor.syllable == Some(index);
         let guessed = Editor::is_guessed(clip, index);
+        let doubtful = !guessed && doubts.iter().any(|d| d.syllable == Some(index));
         let row = layout.said;
         let at = |column: i32| row.x + column.clamp(0, i32::from(columns)) as u16;
         let line = if crowded && index % 2 == 1 { Modifier::UNDERLINED } else { Modifier::empty() };
@@ -56,6 +65,13 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         let mut used = put(buffer, inside, row.y, room, &syllable.text, style.patch(BOLD));
         if used == 0 && room > 0 {
             used = put(buffer, inside, row.y, 1, "·", style);
+        } else if doubtful {
+            used += put(buffer, inside + used, row.y, room - used, "!", style.patch(colours.warning()));
+            if used <= cells(&syllable.text) {
+                // Where there is no room for the sign, the text itself is marked.
+                let marked = colours.warning().add_modifier(Modifier::ITALIC | Modifier::UNDERLINED);
+                buffer.set_style(ratatui::layout::Rect::new(inside, row.y, used, 1), marked);
+            }
         } else if guessed {
             used += put(buffer, inside + used, row.y, room - used, "?", style.patch(colours.warning()));
         }
@@ -75,7 +91,51 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         }
     }
     // Where there is no room for the marks, the margin has one.
-    if any_guessed {
-        put(buffer, layout.area.x + 1, layout.pinyin.y, layout.pinyin.x - 1, "guessed?", colours.warning());
+    let margin = match doubts.len() {
+        _ if any_guessed => "guessed?".to_owned(),
+        0 => return,
+        many => format!("{many} ! (d)"),
+    };
+    put(buffer, layout.area.x + 1, layout.pinyin.y, layout.pinyin.x - 1, &margin, colours.warning());
+}
+
+/// The places where syllables are heard and no words are yet.
+fn places(buffer: &mut Buffer, layout: &Layout, editor: &Editor) {
+    let (window, columns, row) = (editor.window, layout.columns(), layout.said);
+    for (from, to) in &editor.places {
+        let (start, end) = (window.column(*from, columns), window.column(*to, columns));
+        if end < 0 || start >= i32::from(columns) {
+            continue;
+        }
+        let at = |column: i32| row.x + column.clamp(0, i32::from(columns)) as u16;
+        let here = *from - 1e-6 <= editor.cursor && editor.cursor < *to;
+        let style = if here { CHOSEN } else { Style::new() };
+        for x in at(start)..at(end).max(at(start) + 1).min(row.right()) {
+            put(buffer, x, row.y, 1, " ", style);
+        }
+        if start >= 0 {
+            put(buffer, at(start), row.y, 1, "│", style);
+        }
+        let middle = i32::midpoint(start + 1, end);
+        if (0..i32::from(columns)).contains(&middle) && middle > start {
+            put(buffer, at(middle), row.y, 1, "○", style);
+        }
+    }
+}
+
+/// Stretches where something is said that the script does not have.
+fn beside(buffer: &mut Buffer, layout: &Layout, editor: &Editor, doubts: &[crate::project::Doubt], colours: Colours) {
+    const WORDS: &str = "not in the script";
+    let (window, columns, row) = (editor.window, layout.columns(), layout.said);
+    for doubt in doubts.iter().filter(|d| d.syllable.is_none()) {
+        let (start, end) = (window.column(doubt.start, columns), window.column(doubt.end, columns));
+        let (first, last) = (start.max(0), end.min(i32::from(columns)));
+        for column in first..last {
+            put(buffer, row.x + column as u16, row.y, 1, "░", colours.warning());
+        }
+        let room = u16::try_from(last - first).unwrap_or(0);
+        if room > cells(WORDS) + 2 {
+            put(buffer, row.x + first as u16 + 1, row.y, room, WORDS, colours.warning());
+        }
     }
 }

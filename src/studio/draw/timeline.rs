@@ -2,9 +2,11 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Modifier, Style};
+use ratatui::style::{Color, Modifier, Style};
 
-use super::{BOLD, DIM, Layout, bars, cells, curves, head, keyrows, lists, put, said, sound};
+use super::{
+    BOLD, DIM, Layout, bars, cells, curves, head, keyrows, lists, phones, put, said, sound, spectrum, tap, tone,
+};
 use crate::studio::Lane;
 use crate::studio::editor::Editor;
 use crate::studio::picture::FacePicture;
@@ -14,15 +16,36 @@ use crate::timeline::Track;
 pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face: &FacePicture) {
     let (Some(editor), Some(clip), Some(lesson)) = (&state.editor, state.clip(), state.lesson()) else { return };
     let (standing, style) = lists::standing(lesson, state.colours);
-    head(buffer, layout.area, &[&lesson.manifest.title, &clip.entry.name], standing, style);
+    let standing = if state.aligning.is_some() { format!("aligning…   {standing}") } else { standing.to_owned() };
+    head(buffer, layout.area, &[&lesson.manifest.title, &clip.entry.name], &standing, style);
     face.put(buffer, layout.face);
-    bars::panel(buffer, layout.panel, editor, clip, state.colours);
+    match &editor.tapping {
+        Some(tapping) => tap::panel(buffer, layout.panel, state, tapping, clip),
+        None => bars::panel(buffer, layout.panel, editor, clip, state.colours),
+    }
     let on = |lane| editor.lane == lane;
     ruler(buffer, layout, editor);
-    name(buffer, layout.wave, "sound", false);
-    sound::wave(buffer, layout.wave, editor, clip);
+    if let Some(tapping) = &editor.tapping {
+        tap::marks(buffer, layout, state, editor, tapping);
+    }
+    if layout.wave.height > 0 {
+        name(buffer, layout.wave, "sound", false);
+        sound::wave(buffer, layout.wave, editor, clip);
+    }
+    if layout.spectrum.height > 0 {
+        name(buffer, layout.spectrum, "spectrum", false);
+        spectrum::spectrum(buffer, layout.spectrum, state, editor, clip);
+    }
+    if layout.tone.height > 0 {
+        name(buffer, layout.tone, "pitch", false);
+        tone::tone(buffer, layout.tone, state, editor, clip);
+    }
     name(buffer, layout.said, "said", on(Lane::Syllables));
     said::syllables(buffer, layout, editor, clip, state.colours);
+    if layout.phones.height > 0 {
+        name(buffer, layout.phones, "phones", false);
+        phones::phones(buffer, layout.phones, editor, clip);
+    }
     name(buffer, layout.mouth, "mouth", on(Lane::Keys(Track::Mouth)));
     keyrows::mouth(buffer, layout.mouth, editor, state.colours);
     name(buffer, layout.curves, "ratio", false);
@@ -90,6 +113,8 @@ fn cursor(buffer: &mut Buffer, layout: &Layout, editor: &Editor) {
         let style = cell.style();
         if y == layout.ruler.y {
             cell.set_char('▼').set_style(Style::new().add_modifier(Modifier::BOLD));
+        } else if layout.spectrum.contains((x, y).into()) && matches!(style.bg, Some(Color::Indexed(_))) {
+            cell.set_char('│').set_style(style.fg(Color::Indexed(255)).remove_modifier(Modifier::REVERSED));
         } else if cell.symbol() == " " && !style.add_modifier.contains(Modifier::REVERSED) {
             cell.set_char('│').set_style(Style::new());
         } else {

@@ -29,7 +29,8 @@ pub fn calibrate(model: &Model, folders: &[String]) -> [f32; SIGNS] {
                     script.remove(at);
                     times.remove(at);
                 }
-                let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap() else {
+                let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap()
+                else {
                     continue;
                 };
                 let found = work.alignment(model);

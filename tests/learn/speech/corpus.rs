@@ -128,12 +128,34 @@ pub fn changed(told: &Told, chance: &mut Chance, quietest: f64, noisiest: f64) -
 fn livelier(told: &Told, chance: &mut Chance) -> Sound {
     let rate = f64::from(told.sound.rate);
     let mut samples = told.sound.samples.clone();
-    let (louder, dying, deep) = (crate::setting("LOUDER", 4.0), crate::setting("DYING", 0.07), crate::setting("DEEP", 35.0));
+    let (louder, dying, deep) =
+        (crate::setting("LOUDER", 4.0), crate::setting("DYING", 0.07), crate::setting("DEEP", 35.0));
     let depth = chance.between(0.0, deep);
     for (number, (start, end)) in told.times.iter().enumerate() {
         let gap = told.times.get(number + 1).map_or(1.0, |n| n.0 - end);
         let stop = told.script.get(number + 1).is_none_or(|s| {
-            matches!(segments(s).first().copied().unwrap_or(""), "b" | "p" | "d" | "t" | "g" | "k" | "j" | "q" | "zh" | "ch" | "z" | "c" | "P" | "B" | "T" | "D" | "K" | "G" | "CH" | "JH")
+            matches!(
+                segments(s).first().copied().unwrap_or(""),
+                "b" | "p"
+                    | "d"
+                    | "t"
+                    | "g"
+                    | "k"
+                    | "j"
+                    | "q"
+                    | "zh"
+                    | "ch"
+                    | "z"
+                    | "c"
+                    | "P"
+                    | "B"
+                    | "T"
+                    | "D"
+                    | "K"
+                    | "G"
+                    | "CH"
+                    | "JH"
+            )
         });
         let gain = chance.between(-louder, louder);
         let long = chance.between(0.01, dying);

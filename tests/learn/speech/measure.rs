@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lianpu::script::{Syllable, System, syllables};
-use lianpu::speech::align::works;
 use lianpu::speech::align::model::Model;
+use lianpu::speech::align::works;
 use lianpu::speech::{Alignment, Sound, Take};
 
 use crate::chance::Chance;
@@ -65,7 +65,13 @@ fn run(model: &Model, name: &str, sound: &Sound, script: &[Syllable]) -> Option<
         Ok(work) => {
             let a = work.alignment(model);
             if std::env::var("INFO").is_ok() {
-                println!("{name}: snr {:.1} fit {:.3} sense {:.2} missing {}", work.heard.snr, work.fit, work.sense, a.syllables.iter().filter(|s| !s.heard).count());
+                println!(
+                    "{name}: snr {:.1} fit {:.3} sense {:.2} missing {}",
+                    work.heard.snr,
+                    work.fit,
+                    work.sense,
+                    a.syllables.iter().filter(|s| !s.heard).count()
+                );
             }
             for note in a.notes.iter().filter(|n| !matches!(n, lianpu::speech::Note::Noisy { .. })) {
                 println!("{name}: {note}");
@@ -142,7 +148,12 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
     for row in rows(&folder.join("phones.csv")) {
         if which(&row[0]) {
             let entry = files.entry(row[0].clone()).or_default();
-            entry.push((format!("{} {}", row[1], row[2]), row[3].clone(), row[4].parse().unwrap(), row[5].parse().unwrap()));
+            entry.push((
+                format!("{} {}", row[1], row[2]),
+                row[3].clone(),
+                row[4].parse().unwrap(),
+                row[5].parse().unwrap(),
+            ));
         }
     }
     let (mut errors, mut lips) = (Errors::default(), Errors::default());
@@ -175,7 +186,15 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
         if std::env::var("SHOW").is_ok() {
             for (t, s) in truth.iter().zip(&a.syllables) {
                 let phones: Vec<String> = s.phones.iter().map(|p| format!("{} {:.3}", p.phone, p.start)).collect();
-                println!("{file} {:9} {:.3} {:+4.0}   {:.3} {:+4.0}  {}", t.0, t.1, (s.start - t.1) * 1000.0, t.2, (s.end - t.2) * 1000.0, phones.join(", "));
+                println!(
+                    "{file} {:9} {:.3} {:+4.0}   {:.3} {:+4.0}  {}",
+                    t.0,
+                    t.1,
+                    (s.start - t.1) * 1000.0,
+                    t.2,
+                    (s.end - t.2) * 1000.0,
+                    phones.join(", ")
+                );
             }
         }
         let found: Vec<f64> = a
@@ -205,8 +224,7 @@ fn real(model: &Model, folder: &Path) {
         let found = times(&a);
         let mut errors = Errors::default();
         if name.starts_with("neural") {
-            let mut off: Vec<f64> =
-                times_of.iter().zip(&found).flat_map(|(t, f)| [f.0 - t.0, f.1 - t.1]).collect();
+            let mut off: Vec<f64> = times_of.iter().zip(&found).flat_map(|(t, f)| [f.0 - t.0, f.1 - t.1]).collect();
             off.sort_by(f64::total_cmp);
             let middle = off[off.len() / 2];
             println!("{name}: offset {:.0} ms", middle * 1000.0);
@@ -217,7 +235,15 @@ fn real(model: &Model, folder: &Path) {
         errors.print(name);
         if std::env::var("SHOW").is_ok() {
             for ((l, t), f) in labels.iter().zip(&times_of).zip(&found) {
-                println!("{l:8} {:.2} {:.3} {:+.0}   {:.2} {:.3} {:+.0}", t.0, f.0, (f.0 - t.0) * 1000.0, t.1, f.1, (f.1 - t.1) * 1000.0);
+                println!(
+                    "{l:8} {:.2} {:.3} {:+.0}   {:.2} {:.3} {:+.0}",
+                    t.0,
+                    f.0,
+                    (f.0 - t.0) * 1000.0,
+                    t.1,
+                    f.1,
+                    (f.1 - t.1) * 1000.0
+                );
             }
         }
     }
@@ -239,11 +265,9 @@ fn real(model: &Model, folder: &Path) {
 
 fn english(model: &Model, folder: &Path) {
     let mut errors = Errors::default();
-    for (wav, grid) in [
-        ("mary", "mary"),
-        ("bobby", "bobby_words"),
-        ("the_north_wind_and_the_sun", "the_north_wind_and_the_sun"),
-    ] {
+    for (wav, grid) in
+        [("mary", "mary"), ("bobby", "bobby_words"), ("the_north_wind_and_the_sun", "the_north_wind_and_the_sun")]
+    {
         let text = std::fs::read_to_string(folder.join(format!("{grid}.TextGrid"))).unwrap();
         let words = words(&text);
         if words.is_empty() {
@@ -256,7 +280,15 @@ fn english(model: &Model, folder: &Path) {
         let truth: Vec<(f64, f64)> = words.iter().map(|w| (w.1, w.2)).collect();
         if std::env::var("SHOW").is_ok() {
             for ((l, t), f) in labels.iter().zip(&truth).zip(times(&a)) {
-                println!("{l:8} {:.3} {:.3} {:+.0}   {:.3} {:.3} {:+.0}", t.0, f.0, (f.0 - t.0) * 1000.0, t.1, f.1, (f.1 - t.1) * 1000.0);
+                println!(
+                    "{l:8} {:.3} {:.3} {:+.0}   {:.3} {:.3} {:+.0}",
+                    t.0,
+                    f.0,
+                    (f.0 - t.0) * 1000.0,
+                    t.1,
+                    f.1,
+                    (f.1 - t.1) * 1000.0
+                );
             }
         }
         errors.add(&truth, &times(&a));
@@ -322,11 +354,19 @@ pub fn parted(model: &Model, folder: &Path) {
             if script.is_empty() {
                 continue;
             }
-            let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap() else { continue };
+            let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap() else {
+                continue;
+            };
             let a = work.alignment(model);
             fits[kind].push(work.sense);
             if std::env::var("INFO").is_ok() {
-                println!("kind {kind} count {} fit {:.2} sense {:.2} missing {:.2}", script.len(), work.fit, work.sense, a.syllables.iter().filter(|s| !s.heard).count() as f64 / script.len() as f64);
+                println!(
+                    "kind {kind} count {} fit {:.2} sense {:.2} missing {:.2}",
+                    script.len(),
+                    work.fit,
+                    work.sense,
+                    a.syllables.iter().filter(|s| !s.heard).count() as f64 / script.len() as f64
+                );
             }
             if a.notes.contains(&lianpu::speech::Note::Doubtful) {
                 doubted[kind] += 1;
@@ -337,19 +377,32 @@ pub fn parted(model: &Model, folder: &Path) {
                 _ => false,
             });
             where_off[kind] += usize::from(right);
-            let any = a.notes.iter().any(|n| !matches!(n, lianpu::speech::Note::Noisy { .. } | lianpu::speech::Note::Doubtful));
+            let any = a
+                .notes
+                .iter()
+                .any(|n| !matches!(n, lianpu::speech::Note::Noisy { .. } | lianpu::speech::Note::Doubtful));
             noted[kind] += usize::from(any);
             quiet[kind] += 1;
             let (t, f): (Vec<_>, Vec<_>) = truth.iter().zip(times(&a)).filter_map(|(t, f)| Some(((*t)?, f))).unzip();
             errors[kind].add(&t, &f);
         }
     }
-    for (kind, name) in ["right script", "word left out of it", "word too many in it", "another script"].iter().enumerate() {
+    for (kind, name) in
+        ["right script", "word left out of it", "word too many in it", "another script"].iter().enumerate()
+    {
         fits[kind].sort_by(f32::total_cmp);
         let of = |q: f64| fits[kind][((fits[kind].len() - 1) as f64 * q) as usize];
         println!(
             "{name}: of {} parted {} (right place {}) doubted {}; fit {:.2} {:.2} {:.2} {:.2} {:.2}",
-            quiet[kind], noted[kind], where_off[kind], doubted[kind], of(0.0), of(0.02), of(0.5), of(0.98), of(1.0)
+            quiet[kind],
+            noted[kind],
+            where_off[kind],
+            doubted[kind],
+            of(0.0),
+            of(0.02),
+            of(0.5),
+            of(0.98),
+            of(1.0)
         );
         errors[kind].print(name);
     }
@@ -357,9 +410,17 @@ pub fn parted(model: &Model, folder: &Path) {
 
 /// Every recording of a folder with the scripts of the others.
 fn wrong(model: &Model, folder: &Path) {
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().flatten().map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "lab")).collect();
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .flatten()
+        .map(|e| e.path())
+        .filter(|p| p.extension().is_some_and(|e| e == "lab"))
+        .collect();
     files.sort();
-    let scripts: Vec<Vec<Syllable>> = files.iter().map(|f| syllables(&std::fs::read_to_string(f).unwrap(), System::Hanyu).unwrap_or_default()).collect();
+    let scripts: Vec<Vec<Syllable>> = files
+        .iter()
+        .map(|f| syllables(&std::fs::read_to_string(f).unwrap(), System::Hanyu).unwrap_or_default())
+        .collect();
     for (n, file) in files.iter().enumerate() {
         let Ok(sound) = Sound::read(&file.with_extension("wav")) else { continue };
         for (other, script) in scripts.iter().enumerate() {
@@ -376,7 +437,9 @@ pub fn table(sure: &[f64], right: &[bool]) {
     if std::env::var("TABLE").is_err() {
         return;
     }
-    for (low, high) in [(0.0, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01)] {
+    for (low, high) in
+        [(0.0, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01)]
+    {
         let own: Vec<(f64, bool)> =
             sure.iter().copied().zip(right.iter().copied()).filter(|(s, _)| (low..high).contains(s)).collect();
         let n = own.len().max(1) as f64;

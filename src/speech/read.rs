@@ -1,0 +1,101 @@
+//! The way in for every kind of recording: which reader takes it, what is too large, and what is said about the rest.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+use super::kind::{HEAD, Kind, kind};
+use super::mix::Mixed;
+use super::{Sound, decode, wav};
+use crate::disk::{Fault, Result};
+
+/// The largest file that is read. Its samples lie in memory.
+const MAX_BYTES: u64 = 2 << 30;
+
+/// The longest recording that is read, in seconds: 4 hours.
+const MAX_SECONDS: u64 = 4 * 3600;
+
+/// Samples a second that are read: from the poorest telephone to the finest studio. Others are damaged headers.
+pub(super) const RATES: std::ops::RangeInclusive<u32> = 1_000..=768_000;
+
+pub(super) const SAVE_AS_WAV: &str = "save it as WAV, 16 bits, and try again";
+
+/// What comes out of a file.
+pub(super) struct Raw {
+    pub rate: u32,
+    pub mixed: Mixed,
+    pub warnings: Vec<String>,
+}
+
+/// Reads a file; faults come with its path.
+pub(super) fn read(path: &Path) -> Result<Sound> {
+    let mut raw = once(path, None).map_err(|fault| fault.at(path))?;
+    if let Some(loudest) = raw.mixed.cancelled() {
+        // Read again rather than kept twice.
+        raw = once(path, Some(loudest)).map_err(|fault| fault.at(path))?;
+        let number = loudest + 1;
+        raw.warnings.push(format!("its channels cancel each other when mixed; channel {number} alone is used"));
+    }
+    if raw.mixed.strange > 0 {
+        raw.warnings.push(format!("{} samples are no numbers and are taken for silence", raw.mixed.strange));
+    }
+    let mut sound = Sound::new(raw.rate, raw.mixed.samples);
+    sound.channels = u16::try_from(raw.mixed.sides.len()).unwrap_or(u16::MAX);
+    (sound.sides, sound.warnings) = (raw.mixed.sides, raw.warnings);
+    Ok(sound)
+}
+
+fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
+    let mut file = File::open(path).map_err(|error| Fault::io("cannot open it", path, error))?;
+    let bytes = file.metadata().map_err(broken)?.len();
+    if bytes > MAX_BYTES {
+        return Err(Fault::new("the file is larger than 2 GB").help("cut the recording into clips"));
+    }
+    let mut head = Vec::with_capacity(HEAD);
+    file.by_ref().take(HEAD as u64).read_to_end(&mut head).map_err(broken)?;
+    let kind = kind(&head);
+    match kind {
+        Kind::Wave => {
+            if let Some(raw) = wav::read(&mut file, bytes, only)? {
+                return Ok(raw);
+            }
+        }
+        Kind::Foreign(what) => {
+            return Err(Fault::new(format!("it is {what}, which is not read")).help(convert(path)));
+        }
+        Kind::Unknown => {
+            let what = if bytes == 0 { "the file is empty" } else { "it is no recording that is known" };
+            let kinds = "WAV, AIFF, FLAC, OGG, MP3 and M4A are read, and the sound of MP4, MOV, MKV and WebM";
+            return Err(Fault::new(what).help(format!("{kinds}; for others {}", convert(path))));
+        }
+        Kind::Mp3 | Kind::Iso | Kind::Other => {}
+    }
+    file.seek(SeekFrom::Start(0)).map_err(broken)?;
+    decode::read(file, kind, only).map_err(|fault| match fault.next_step() {
+        "" => fault.help(convert(path)),
+        _ => fault,
+    })
+}
+
+/// Makes sure that it is no longer than what is read.
+pub(super) fn short_enough(frames: u64, rate: u32) -> Result<()> {
+    if frames > MAX_SECONDS * u64::from(rate) {
+        return Err(Fault::new("the recording is longer than 4 hours").help("cut it into clips"));
+    }
+    Ok(())
+}
+
+/// What to do with a file of another kind.
+fn convert(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let target = if name == "speech.wav" { "converted.wav" } else { "speech.wav" };
+    let plain = name.chars().all(|c| c.is_alphanumeric() || "._-".contains(c)) && !name.starts_with('-');
+    let name = if plain { name } else { format!("'{}'", name.replace('\'', "'\\''")) };
+    format!("turn it into WAV, for example with `ffmpeg -i {name} {target}`")
+}
+
+/// A file that can be opened and not read.
+#[allow(clippy::needless_pass_by_value)] // as `map_err` gives it
+pub(super) fn broken(error: std::io::Error) -> Fault {
+    Fault::new(format!("cannot read it: {error}")).help("try again from a copy on another disk")
+}
