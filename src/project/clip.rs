@@ -275,7 +275,7 @@ impl Clip {
 }
 
 /// What recordings are called at their end. What is in them their content says; Opus is named when it is found.
-const SOUNDS: [&str; 22] = [
+pub(super) const SOUNDS: [&str; 22] = [
     "wav", "wave", "bwf", "aif", "aiff", "aifc", "mp3", "ogg", "oga", "flac", "m4a", "m4b", "aac", "mp4", "m4v", "mov",
     "3gp", "mkv", "mka", "webm", "opus", "wma",
 ];
