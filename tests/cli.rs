@@ -120,8 +120,10 @@ fn her_own_recording_and_script_become_a_lesson_that_exports() {
     let speech = project("nihao") + "/clips/nihao/speech.wav";
     std::fs::write(at("script.txt"), "您好").unwrap();
     let said = done(&["new", &at("mine"), "--speech", &speech, "--script", &at("script.txt")]);
-    assert!(said.contains("guessed") && said.contains("lianpu export"), "{said}");
-    assert!(done(&["check", &at("mine")]).contains("guessed"));
+    assert!(said.contains("found in the sound") && said.contains("lianpu export"), "{said}");
+    assert!(!done(&["check", &at("mine")]).contains("guessed"));
+    let quality = done(&["check", "--quality", &at("mine")]);
+    assert!(quality.contains("voice at -") && !quality.contains("note"), "{quality}");
     done(&["export", &at("mine"), "--to", "png", "--frames", "0-3"]);
     assert!(PathBuf::from(at("mine/export/mine/000003.png")).is_file());
     fails(&["new", &at("mine"), "--ratios", &at("x")], 1, "already there");

@@ -75,12 +75,16 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 say(format!("note: {note}"))?;
             }
             let doubts = clip.doubts();
-            if let Some(first) = doubts.first() {
-                let places = if doubts.len() == 1 { "1 place".into() } else { format!("{} places", doubts.len()) };
-                say(format!(
-                    "the times were found in the sound; {places} to look at, the first at {:.2} s",
-                    first.start
-                ))?;
+            match doubts.first() {
+                Some(first) => {
+                    let places = if doubts.len() == 1 { "1 place".into() } else { format!("{} places", doubts.len()) };
+                    say(format!(
+                        "its times were found in the sound, {places} to look at, the first at {:.2} s",
+                        first.start
+                    ))?;
+                }
+                None if clip.score.aligned.is_some() => say("its times were found in the sound".into())?,
+                None => {}
             }
             if clip.timing.guessed {
                 say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;
