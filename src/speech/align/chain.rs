@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::units::{ANY, UNITS, Unit, is_vowel, spelled};
-use crate::script::{Lang, Syllable, segments};
+use super::units::{ANY, UNITS, Unit, spelled};
+use crate::script::{Syllable, segments};
 
 /// A unit at its place in the script.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,17 +81,33 @@ impl Chain {
         units.dedup();
         units
     }
-
-    /// Whether a syllable has a vowel: one without is spoken more softly.
-    #[must_use]
-    pub fn has_vowel(&self, syllable: usize) -> bool {
-        self.links[self.syllables[syllable].clone()].iter().any(|l| is_vowel(l.unit))
-    }
 }
 
-/// The language that most of a script is in.
-#[must_use]
-pub fn mostly(script: &[Syllable]) -> Lang {
-    let english = script.iter().filter(|s| s.lang == Lang::En).count();
-    if 2 * english > script.len() { Lang::En } else { Lang::Zh }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::{System, syllables};
+
+    #[test]
+    fn both_languages_and_what_cannot_be_read_are_in_one_chain() {
+        let mut script = syllables("您好 hello", System::Han).unwrap();
+        script[1].pinyin = String::new();
+        let chain = Chain::of(&script);
+        let names: Vec<&str> = chain.links.iter().map(|l| UNITS[usize::from(l.unit)].name).collect();
+        assert_eq!(names, ["N", "I", "NN", "ANY", "hh", "ah", "l", "ow1", "ow2"]);
+        assert_eq!(chain.syllables, [0..3, 3..4, 4..9]);
+        assert_eq!(chain.phones[2], ["HH", "AH", "L", "OW"]);
+        assert!((chain.usual(0..3) - 0.21).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_other_way_round_its_syllables_are_whole() {
+        let chain = Chain::of(&syllables("ta1 men5 ta1", System::Hanyu).unwrap());
+        let reversed = chain.reversed();
+        assert_eq!(reversed.syllables, [0..3, 3..6, 6..9]);
+        assert!((0..3).all(|n| !chain.differs(&reversed, n)), "the same from either end");
+        let chain = Chain::of(&syllables("ni3 hao3", System::Hanyu).unwrap());
+        assert!(chain.differs(&chain.reversed(), 0));
+        assert_eq!(chain.reversed().reversed().links, chain.links);
+    }
 }

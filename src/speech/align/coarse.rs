@@ -39,7 +39,7 @@ pub(super) fn roughly(
     section: &Section,
     rate: f32,
     costs: &Costs,
-) -> Option<Vec<(usize, usize)>> {
+) -> Option<(Vec<(usize, usize)>, f64)> {
     let steps = steps(chain, section, rate, costs);
     let count = (section.to - section.from) / STEP;
     if count == 0 {
@@ -61,6 +61,7 @@ pub(super) fn roughly(
     // Into the first place comes everything that can begin.
     let (mut low, mut high) = (0, 1);
     let reach = steps.iter().flat_map(|s| s.ways.iter().map(|w| w.0)).max().unwrap_or(1);
+    let mut score = 0.0;
     for t in 0..count {
         let frame = section.from + t * STEP;
         let to = (high + reach).min(steps.len());
@@ -88,6 +89,7 @@ pub(super) fn roughly(
             best = best.max(value);
             taken.push(way);
         }
+        score += f64::from(best);
         // What is too far behind falls out at either side.
         let alive = |v: f32| v > best - BEAM;
         let first = (low..to).find(|p| alive(now[*p])).unwrap_or(low);
@@ -113,6 +115,7 @@ pub(super) fn roughly(
     if before[place] == NEVER {
         return None;
     }
+    score += f64::from(before[place]);
     let links = chain.syllables[section.first].start..chain.syllables[section.last - 1].end;
     let mut found: Vec<Option<(usize, usize)>> = vec![None; links.len()];
     for t in (0..count).rev() {
@@ -139,7 +142,7 @@ pub(super) fn roughly(
         })
         .collect();
     out.reverse();
-    Some(out)
+    Some((out, score))
 }
 
 fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step> {
@@ -162,7 +165,8 @@ fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step
             lasts.last().map_or((gap + offset + 1, cost), |last| (gap + offset - last, cost + entered))
         };
         let pause_cost = if lasts.is_empty() || syllable == section.last { 0.0 } else { -costs.pause };
-        let skipped = |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -costs.skip)).filter(|_| offset < 3);
+        let skipped =
+            |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -costs.skip)).filter(|_| offset < 3);
         let mut pause = vec![(0, 0.0), from_last(0, pause_cost, &lasts)];
         pause.extend(skipped(0, &gaps));
         steps.push(Step { place: Place::Pause, ways: pause });

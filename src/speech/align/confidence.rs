@@ -90,7 +90,8 @@ impl Sides<'_> {
             let mut lost = 0.0;
             for by in 1..=REACH as isize {
                 let place = if step > 0 { at as isize + by - 1 } else { at as isize - by };
-                let Some(taken) = usize::try_from(place - self.from as isize).ok().and_then(|i| self.taken.get(i)) else {
+                let Some(taken) = usize::try_from(place - self.from as isize).ok().and_then(|i| self.taken.get(i))
+                else {
                     break;
                 };
                 lost += taken[place as usize] - row[place as usize];
@@ -109,4 +110,42 @@ impl Sides<'_> {
 pub fn confidence(signs: &[f32; SIGNS], weights: &[f32; SIGNS]) -> f64 {
     let sum: f32 = signs.iter().zip(weights).map(|(s, w)| s * w).sum();
     1.0 / (1.0 + f64::from(-sum).exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chain::Chain;
+    use super::super::search::Costs;
+    use super::super::units::UNITS;
+    use super::*;
+    use crate::script::{System, syllables};
+
+    #[test]
+    fn a_clear_boundary_is_surer_than_a_blurred_one() {
+        let chain = Chain::of(&syllables("sa1 mi2", System::Hanyu).unwrap());
+        let spans = [(20, 40), (40, 65), (65, 78), (78, 100)];
+        let signs_with = |contrast: f32| {
+            let mut rows = vec![1; UNITS.len()];
+            let mut scores = vec![vec![contrast; 120], vec![0.0; 120]];
+            for (link, (from, to)) in chain.links.iter().zip(&spans) {
+                rows[usize::from(link.unit)] = scores.len();
+                scores.push(vec![-contrast; 120]);
+                scores[0][*from..*to].fill(-contrast);
+                let own = scores.len() - 1;
+                scores[own][*from..*to].fill(contrast);
+            }
+            let costs = Costs { pause: 6.0, other: 40.0, skip: 40.0 };
+            let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs };
+            let section = Section { from: 0, to: 120, first: 0, last: 2, full: false };
+            let way = Way { links: spans.to_vec(), ..Way::default() };
+            signs(&search, &section, &way, 30.0)
+        };
+        let (clear, blurred) = (signs_with(1.0), signs_with(0.05));
+        let weights = [-2.0, 3.0, 1.0, 1.0, -0.5, 0.5];
+        for (c, b) in clear.iter().zip(&blurred) {
+            assert!(c[1] > b[1] + 0.2 && c[2] >= c[1], "{c:?} {b:?}");
+            let (c, b) = (confidence(c, &weights), confidence(b, &weights));
+            assert!(c > b && (0.0..=1.0).contains(&c) && (0.0..=1.0).contains(&b));
+        }
+    }
 }

@@ -5,7 +5,7 @@ use super::units::{UNITS, Unit};
 
 /// How much the times count against the sound: frames that follow each other say much the same, times say something
 /// new.
-static WEIGHT: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("WEIGHT").map_or(3.0, |s| s.parse().unwrap()));
+const WEIGHT: f32 = 3.0;
 
 /// The last syllable before a pause is drawn out by so much.
 const DRAWN: f32 = 1.35;
@@ -34,7 +34,7 @@ impl Lasting {
         let most = ((usual * (3.2 * kind.spread).exp() / frame) as usize).clamp(least + 3, LONGEST);
         let value = |frames: usize| {
             let z = ((frames as f32 * frame).ln() - usual.ln()) / kind.spread;
-            *WEIGHT * (-0.5 * z * z - kind.spread.ln() - 0.9)
+            WEIGHT * (-0.5 * z * z - kind.spread.ln() - 0.9)
         };
         Self { least, values: (least..=most).map(value).collect() }
     }
@@ -43,5 +43,31 @@ impl Lasting {
     #[must_use]
     pub fn at(&self, frames: usize) -> f32 {
         frames.checked_sub(self.least).and_then(|i| self.values.get(i)).copied().unwrap_or(-60.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::units::{CLOSURE, UNITS};
+    use super::*;
+
+    #[test]
+    fn the_usual_time_is_the_likeliest_and_moves_with_the_rate() {
+        for (rate, frames) in [(0.7, 6), (1.0, 9), (2.0, 18)] {
+            let lasting = Lasting::of(CLOSURE, rate, false);
+            let best = (1..200).max_by(|a, b| lasting.at(*a).total_cmp(&lasting.at(*b)));
+            assert_eq!(best, Some(frames));
+        }
+    }
+
+    #[test]
+    fn every_unit_has_times_at_every_rate() {
+        for unit in 0..UNITS.len() {
+            for rate in [0.4, 1.0, 2.5] {
+                let lasting = Lasting::of(unit as Unit, rate, true);
+                assert!(lasting.least >= 1 && lasting.values.len() > 3 && lasting.values.iter().all(|v| v.is_finite()));
+                assert_eq!((lasting.at(0), lasting.at(1000)), (-60.0, -60.0));
+            }
+        }
     }
 }

@@ -29,8 +29,8 @@ use self::work::Work;
 use super::{Alignment, Take};
 use crate::disk::Result;
 
-/// Passes after the first, each with the model moved towards what the one before found.
-static PASSES: std::sync::LazyLock<usize> = std::sync::LazyLock::new(|| std::env::var("PASSES").map_or(3, |s| s.parse().unwrap()));
+/// Passes after the first, each with the model moved towards what the one before found. A third changes nothing.
+const PASSES: usize = 2;
 
 /// Aligns the takes of one speaker, each to its own script. Their sound is pooled to adapt the model to the voice
 /// where that helps.
@@ -49,7 +49,7 @@ pub fn works(model: &Model, takes: &[Take<'_>]) -> Vec<Result<Work>> {
     let mut works: Vec<Result<Work>> = takes.par_iter().map(Work::of).collect();
     let mut open: Vec<&mut Work> = works.iter_mut().flatten().collect();
     open.par_iter_mut().for_each(|work| work.pass(model));
-    for _ in 0..*PASSES {
+    for _ in 0..PASSES {
         let heard: Vec<Heard> = open.par_iter().map(|w| Heard::of(model, &w.heard, &w.labels())).collect();
         let mut all = Heard::nothing(model);
         heard.iter().for_each(|h| all.and(h, 1.0));

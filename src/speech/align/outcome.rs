@@ -47,6 +47,23 @@ pub fn spoken(
             syllables[number].confidence = 1.0;
         }
     }
+    // Pins need not lie on frames: what is beside them gives way.
+    let free = |number: &usize| pinned(*number).is_none();
+    for number in 0..syllables.len() {
+        let Some(pin) = pinned(number) else { continue };
+        if let Some(before) = number.checked_sub(1).filter(free) {
+            let (start, end) = (syllables[before].start, syllables[before].end);
+            if end > pin.start {
+                place(&mut syllables[before], start.min(pin.start), pin.start);
+            }
+        }
+        if let Some(after) = Some(number + 1).filter(|n| *n < syllables.len() && free(n)) {
+            let (start, end) = (syllables[after].start, syllables[after].end);
+            if start < pin.end {
+                place(&mut syllables[after], pin.end, end.max(pin.end));
+            }
+        }
+    }
     let fixed: Vec<bool> = (0..syllables.len()).map(|n| pinned(n).is_some()).collect();
     make_room(&mut syllables, &fixed, duration);
     syllables
@@ -142,3 +159,44 @@ pub fn partings(sections: &[Section], ways: &[Way], syllables: &[SpokenSyllable]
     notes.into_iter().map(|n| n.1).collect()
 }
 
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn syllable(start: f64, end: f64, heard: bool) -> SpokenSyllable {
+        let middle = 0.5 * (start + end);
+        let phone = |start, end| SpokenPhone { phone: "a", start, end };
+        SpokenSyllable { start, end, confidence: 0.5, heard, phones: vec![phone(start, middle), phone(middle, end)] }
+    }
+
+    fn in_order(syllables: &[SpokenSyllable]) {
+        for pair in syllables.windows(2) {
+            assert!(pair[0].end <= pair[1].start, "{pair:?}");
+        }
+        for s in syllables {
+            assert_eq!((s.start, s.end), (s.phones[0].start, s.phones[1].end));
+            assert!(s.phones[0].end == s.phones[1].start && s.start <= s.phones[0].end && s.phones[0].end <= s.end);
+        }
+    }
+
+    #[test]
+    fn what_is_not_heard_has_a_short_place_between_its_neighbours() {
+        let mut said = vec![syllable(0.2, 0.5, true), syllable(0.5, 0.5, false), syllable(0.5, 0.8, true)];
+        make_room(&mut said, &[false; 3], 1.0);
+        in_order(&said);
+        assert!((said[1].end - said[1].start - PLACE).abs() < 1e-9, "{:?}", said[1]);
+        let mut said = vec![syllable(0.2, 0.5, true), syllable(0.7, 0.7, false), syllable(0.7, 0.7, false)];
+        make_room(&mut said, &[false; 3], 1.0);
+        in_order(&said);
+        assert!(said[1].start >= 0.5 && (said[2].end - said[1].start - 2.0 * PLACE).abs() < 1e-9);
+        assert_eq!((said[0].start, said[0].end), (0.2, 0.5));
+    }
+
+    #[test]
+    fn a_pinned_neighbour_gives_no_room() {
+        let mut said = vec![syllable(0.2, 0.5, true), syllable(0.5, 0.5, false), syllable(0.5, 0.8, true)];
+        make_room(&mut said, &[true, false, true], 1.0);
+        in_order(&said);
+        assert_eq!((said[0].end, said[2].start), (0.5, 0.5));
+    }
+}

@@ -26,6 +26,12 @@ const PAUSE: usize = 6;
 /// The shortest thing that is said beside the script, in frames: 100 ms.
 const OTHER: usize = 20;
 
+/// How often bands are made wider.
+const TRIES: usize = 3;
+
+/// So many links to either side of where a way touches the edge of its band are given a wider one.
+const NEIGHBOURS: usize = 12;
+
 /// The widest band that is tried, in frames to either side: 6 s.
 const WIDEST: usize = 1200;
 
@@ -134,29 +140,44 @@ impl Search<'_> {
     #[must_use]
     pub fn way(&self, section: &Section, near: Option<&[(usize, usize)]>, width: usize) -> Way {
         let rough = match near {
-            Some(links) => Some(links.to_vec()),
-            None => {
-                let rows = |link: usize| match self.chain.links[link].unit {
-                    ANY => 1,
-                    unit => self.rows[usize::from(unit)],
-                };
-                coarse::roughly(self.chain, &rows, self.scores, section, self.rate, &self.costs)
-            }
+            Some(links) => links.to_vec(),
+            None => self.roughly(section).map_or_else(|| self.spread(section), |r| r.0),
         };
-        let rough = rough.unwrap_or_else(|| self.spread(section));
-        let mut width = width;
-        loop {
-            let (way, touched) = self.within(section, &rough, width);
-            // A way along the edge of its band may lie beyond it.
-            if !touched && way.score > NEVER {
+        let mut widths = vec![width; rough.len()];
+        for _ in 0..TRIES {
+            let (way, touched) = self.within(section, &rough, &widths);
+            if touched.is_empty() && way.score > NEVER {
                 return way;
             }
-            if width >= WIDEST.min(section.to - section.from) {
-                // Where nothing fits, at least everything is in order.
-                return if way.score > NEVER { way } else { self.evenly(section) };
+            // A way along the edge of its band may lie beyond it: there the band is made wider.
+            let mut wider = widths.clone();
+            for link in touched {
+                let about = link.saturating_sub(NEIGHBOURS)..(link + NEIGHBOURS).min(widths.len());
+                for at in about {
+                    wider[at] = (3 * widths[at]).min(WIDEST);
+                }
             }
-            width *= 3;
+            if way.score == NEVER {
+                wider = widths.iter().map(|w| (3 * w).min(WIDEST)).collect();
+            }
+            if wider == widths {
+                break;
+            }
+            widths = wider;
         }
+        let (way, _) = self.within(section, &rough, &widths);
+        // Where nothing fits, at least everything is in order.
+        if way.score > NEVER { way } else { self.evenly(section) }
+    }
+
+    /// A rough way, and how likely it is; none where it is lost.
+    #[must_use]
+    pub fn roughly(&self, section: &Section) -> Option<(Vec<(usize, usize)>, f64)> {
+        let rows = |link: usize| match self.chain.links[link].unit {
+            ANY => 1,
+            unit => self.rows[usize::from(unit)],
+        };
+        coarse::roughly(self.chain, &rows, self.scores, section, self.rate, &self.costs)
     }
 
     fn evenly(&self, section: &Section) -> Way {
@@ -170,8 +191,8 @@ impl Search<'_> {
         (0..count).map(|i| (section.from + i * length / count, section.from + (i + 1) * length / count)).collect()
     }
 
-    fn within(&self, section: &Section, rough: &[(usize, usize)], width: usize) -> (Way, bool) {
-        let band = |t: usize, before: Band| Band {
+    fn within(&self, section: &Section, rough: &[(usize, usize)], widths: &[usize]) -> (Way, Vec<usize>) {
+        let band = |t: usize, width: usize, before: Band| Band {
             low: t.saturating_sub(width).max(section.from).max(before.low),
             high: (t + width).min(section.to).max(before.high),
         };
@@ -183,13 +204,14 @@ impl Search<'_> {
         let mut skips: Vec<Vec<bool>> = Vec::new();
         for syllable in section.first..section.last {
             let links = self.chain.syllables[syllable].clone();
-            let begin = band(rough[links.start - first_link].0, Band { low: reached.band.low, ..start });
+            let width = widths[links.start - first_link];
+            let begin = band(rough[links.start - first_link].0, width, Band { low: reached.band.low, ..start });
             let how_to = Crossover { free: syllable == section.first, full: section.full };
             let (entered, how) = self.cross(&reached, begin, how_to);
             crossings.push((begin, how));
             let mut now = Reached { band: entered.band, scores: entered.scores.clone() };
             for link in links.clone() {
-                let end = band(rough[link - first_link].1, now.band);
+                let end = band(rough[link - first_link].1, widths[link - first_link], now.band);
                 let (next, how) = extend(&now, end, self.of_link(link), &self.lasting(link));
                 lengths.push((end, how));
                 now = next;
@@ -210,19 +232,19 @@ impl Search<'_> {
         crossings.push((end, how));
         let mut way = Way { score: finished.at(section.to), ..Way::default() };
         if way.score == NEVER {
-            return (way, true);
+            return (way, Vec::new());
         }
         // Back from the end.
-        let mut touched = false;
-        let edge = |t: usize, b: Band| {
-            (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to)
-        };
+        let mut touched = Vec::new();
+        let edge = |t: usize, b: Band| (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to);
         let mut t = section.to;
         let mut link = lengths.len();
         for number in (0..=section.last - section.first).rev() {
             let (band, how) = &crossings[number];
             let crossing = how[t - band.low];
-            touched |= number + first_of(section) < section.last && edge(t, *band);
+            if number + section.first < section.last && edge(t, *band) {
+                touched.push(link.min(widths.len() - 1));
+            }
             way.beside.push(crossing.beside.map(|(a, b)| (a as usize, b as usize)));
             t = crossing.from as usize;
             let Some(number) = number.checked_sub(1) else { break };
@@ -236,7 +258,9 @@ impl Search<'_> {
             for _ in 0..links {
                 link -= 1;
                 let (band, how) = &lengths[link];
-                touched |= edge(t, *band);
+                if edge(t, *band) {
+                    touched.push(link);
+                }
                 let length = usize::from(how[t - band.low]);
                 way.links.push((t - length, t));
                 t -= length;
@@ -315,10 +339,6 @@ impl Search<'_> {
     }
 }
 
-fn first_of(section: &Section) -> usize {
-    section.first
-}
-
 /// From the beginnings of a unit to its ends: the best score of each end, and how many frames it lasts then.
 fn extend(before: &Reached, to: Band, row: &[f32], lasting: &Lasting) -> (Reached, Vec<u16>) {
     let from = before.band.low;
@@ -356,4 +376,97 @@ fn extend(before: &Reached, to: Band, row: &[f32], lasting: &Lasting) -> (Reache
     }
     let scores = best.iter().enumerate().map(|(i, b)| f64::from(*b + sums[to.low + i - from]) + base).collect();
     (Reached { band: to, scores }, lengths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::{System, syllables};
+
+    const COSTS: Costs = Costs { pause: 6.0, other: 40.0, skip: 40.0 };
+
+    /// Scores by which exactly these spans of frames fit their links, in a recording of so many frames.
+    fn painted(chain: &Chain, spans: &[(usize, usize)], frames: usize) -> (Vec<Vec<f32>>, Vec<usize>) {
+        let units = chain.units();
+        let mut rows = vec![1; super::super::units::UNITS.len()];
+        rows[0] = 0;
+        let mut scores = vec![vec![1.0; frames], vec![0.0; frames]];
+        for unit in units {
+            rows[usize::from(unit)] = scores.len();
+            scores.push(vec![-2.0; frames]);
+        }
+        for (link, (from, to)) in chain.links.iter().zip(spans) {
+            scores[0][*from..*to].fill(-2.0);
+            scores[rows[usize::from(link.unit)]][*from..*to].fill(1.5);
+        }
+        (scores, rows)
+    }
+
+    fn whole(chain: &Chain, frames: usize) -> Section {
+        Section { from: 0, to: frames, first: 0, last: chain.syllables.len(), full: false }
+    }
+
+    fn way(chain: &Chain, spans: &[(usize, usize)], frames: usize) -> Way {
+        let (scores, rows) = painted(chain, spans, frames);
+        Search { chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS }.way(&whole(chain, frames), None, 200)
+    }
+
+    #[test]
+    fn units_are_found_where_they_fit_across_pauses_long_and_short() {
+        let chain = Chain::of(&syllables("sa1 mi2 lu3", System::Hanyu).unwrap());
+        let spans = [(300, 320), (320, 345), (345, 358), (358, 380), (2600, 2612), (2612, 2630)];
+        let found = way(&chain, &spans, 3000);
+        assert_eq!(found.links, spans);
+        assert_eq!(found.beside, [None; 4]);
+    }
+
+    #[test]
+    fn a_syllable_that_is_not_said_has_no_length_and_leaves_the_others_in_their_places() {
+        let chain = Chain::of(&syllables("sa1 mi2 lu3", System::Hanyu).unwrap());
+        let spans = [(300, 320), (320, 345), (345, 345), (345, 345), (360, 372), (372, 390)];
+        let found = way(&chain, &spans, 500);
+        assert_eq!((&found.links[..2], &found.links[4..]), (&spans[..2], &spans[4..]));
+        assert!(found.links[2..4].iter().all(|(a, b)| a == b), "{:?}", found.links);
+    }
+
+    #[test]
+    fn what_is_said_beside_the_script_is_left_out() {
+        let chain = Chain::of(&syllables("sa1 lu3", System::Hanyu).unwrap());
+        let spans = [(300, 320), (320, 345), (500, 512), (512, 530)];
+        let (mut scores, rows) = painted(&chain, &spans, 800);
+        for row in [0, rows[usize::from(chain.links[0].unit)], rows[usize::from(chain.links[1].unit)]] {
+            scores[row][345..470].fill(-3.0);
+        }
+        for link in &chain.links[2..] {
+            scores[rows[usize::from(link.unit)]][345..470].fill(-3.0);
+        }
+        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS };
+        let found = search.way(&whole(&chain, 800), None, 200);
+        assert_eq!(found.links, spans);
+        assert_eq!(found.beside, [None, Some((345, 470)), None]);
+    }
+
+    #[test]
+    fn a_section_that_is_full_has_neither_pause_nor_gap() {
+        let chain = Chain::of(&syllables("sa1", System::Hanyu).unwrap());
+        let (scores, rows) = painted(&chain, &[(20, 40), (40, 60)], 100);
+        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS };
+        for (from, to) in [(10, 80), (38, 42), (40, 41), (50, 50)] {
+            let section = Section { from, to, full: true, ..whole(&chain, 100) };
+            let found = search.way(&section, None, 200);
+            assert_eq!((found.links[0].0, found.links[1].1), (from, to));
+            assert_eq!(found.links[0].1, found.links[1].0);
+        }
+    }
+
+    #[test]
+    fn far_too_much_script_is_spread_or_left_out_but_in_order() {
+        let chain = Chain::of(&syllables(&"shuang1 ".repeat(40), System::Hanyu).unwrap());
+        let (scores, rows) = painted(&chain, &[], 60);
+        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS };
+        let found = search.way(&whole(&chain, 60), None, 200);
+        assert!(
+            found.links.windows(2).all(|w| w[0].1 <= w[1].0) && found.links.iter().all(|l| l.0 <= l.1 && l.1 <= 60)
+        );
+    }
 }

@@ -114,7 +114,7 @@ pub const UNITS: [Kind; 83] = [
     unit("ow2", 65.0, 0.5, 15.0),
     unit("oy1", 90.0, 0.5, 20.0),
     unit("oy2", 70.0, 0.5, 15.0),
-    // The end of English words: stops that are not released, vowels that go on.
+    // Stops at the end of English words, hardly released or not at all.
     unit("p-", 15.0, 0.6, 5.0),
     unit("t-", 20.0, 0.6, 5.0),
     unit("k-", 25.0, 0.6, 5.0),
@@ -226,19 +226,6 @@ pub fn spelled(phones: &[&'static str]) -> Vec<Spelled> {
     phones.iter().enumerate().map(one).collect()
 }
 
-/// Whether a unit is the closure of a stop.
-#[must_use]
-pub fn is_closure(unit: Unit) -> bool {
-    matches!(UNITS[usize::from(unit)].name, "CL" | "vcl")
-}
-
-/// Whether a unit is said with the voice throughout.
-#[must_use]
-pub fn is_vowel(unit: Unit) -> bool {
-    let name = UNITS[usize::from(unit)].name;
-    matches!(name, "A" | "O" | "E" | "EH" | "I" | "U" | "V" | "IH" | "ER") || name.starts_with(['a', 'e', 'i', 'o', 'u'])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -246,7 +233,8 @@ mod tests {
     #[test]
     fn every_unit_is_used_by_some_phone_and_none_is_called_twice() {
         let mandarin = "b p m f d t n l g k h j q x zh ch sh r z c s a o e ê i u ü ih er ng";
-        let english = "AA AE AH AO AW AY B CH D DH EH ER EY F G HH IH IY JH K L M N NG OW OY P R S SH T TH UH UW V W Y Z ZH";
+        let english =
+            "AA AE AH AO AW AY B CH D DH EH ER EY F G HH IH IY JH K L M N NG OW OY P R S SH T TH UH UW V W Y Z ZH";
         let mut used = vec![SILENCE, ANY];
         for phone in mandarin.split(' ').chain(english.split(' ')) {
             for phones in [vec![phone, "a"], vec!["a", phone], vec![phone]] {

@@ -153,7 +153,8 @@ pub fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<
 /// How much better a model fits what was found than another, in logarithms a frame.
 #[must_use]
 pub fn gain(before: &Model, after: &Model, heard: &Features, labels: &[Unit]) -> f32 {
-    let terms = |m: &Model| -> Vec<Vec<Terms>> { m.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect() };
+    let terms =
+        |m: &Model| -> Vec<Vec<Terms>> { m.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect() };
     let (before, after) = (terms(before), terms(after));
     let (mut sum, mut frames) = (0.0_f64, 0_usize);
     // Every third frame says as much as all.
@@ -164,4 +165,38 @@ pub fn gain(before: &Model, after: &Model, heard: &Features, labels: &[Unit]) ->
         frames += 1;
     }
     (sum / frames.max(1) as f64) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::units::CLOSURE;
+    use super::*;
+
+    fn model() -> Model {
+        let gaussian = |m: f32| Gaussian { weight: 0.0, mean: [m; DIMS], variance: [1.0; DIMS] };
+        let mixtures = (0..UNITS.len()).map(|u| vec![gaussian(u as f32)]).collect();
+        Model { mixtures, confidence: [0.0; super::super::confidence::SIGNS] }
+    }
+
+    fn heard(value: f32, frames: usize) -> Features {
+        Features { values: vec![value; frames * DIMS], levels: vec![0.0; frames], ..Features::default() }
+    }
+
+    #[test]
+    fn the_mean_moves_half_way_after_as_many_frames_as_the_learned_counts_for() {
+        let model = model();
+        let heard = Heard::of(&model, &heard(4.0, 40), &[CLOSURE; 40]);
+        let moved = heard.moved(&model);
+        assert!((moved.of(CLOSURE)[0].mean[3] - 3.0).abs() < 1e-5);
+        assert!((moved.of(ANY)[0].mean[0] - 2.5).abs() < 1e-5, "what is said is any voice too");
+        assert_eq!(moved.of(SILENCE), model.of(SILENCE));
+    }
+
+    #[test]
+    fn a_voice_of_the_same_kind_is_a_gain_and_another_is_none() {
+        let model = model();
+        let others = Heard::of(&model, &heard(4.0, 400), &[CLOSURE; 400]).moved(&model);
+        assert!(gain(&model, &others, &heard(4.1, 30), &[CLOSURE; 30]) > 1.0);
+        assert!(gain(&model, &others, &heard(0.5, 30), &[CLOSURE; 30]) < 0.0);
+    }
 }

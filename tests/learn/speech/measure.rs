@@ -93,8 +93,8 @@ pub fn all(model: &Model, data: &Path, which: &[String]) {
     if asked("real") {
         real(model, &data.join("real"));
     }
-    if which.iter().any(|w| w == "wrong") {
-        for set in ["mbrola", "real", "self"] {
+    if which.iter().any(|w| w.starts_with("wrong:")) {
+        for set in which.iter().filter(|w| w.starts_with("wrong:")).map(|w| &w[6..]) {
             wrong(model, &data.join(set));
         }
     }
@@ -158,6 +158,7 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
     }
     let (mut errors, mut lips) = (Errors::default(), Errors::default());
     let mut sure: Vec<f64> = Vec::new();
+    let mut takes = Vec::new();
     for (file, phones) in files {
         let mut truth: Vec<(String, f64, f64)> = Vec::new();
         let mut closed: Vec<f64> = Vec::new();
@@ -180,7 +181,16 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
             corpus::noise(&mut sound.samples, level * 10_f64.powf(-snr / 20.0), &mut Chance(file.len() as u64));
         }
         let script = script(&labels, System::Hanyu);
-        let Some(a) = run(model, &file, &sound, &script) else { continue };
+        takes.push((file, truth, closed, sound, script));
+    }
+    let pooled: Vec<_> = if std::env::var("POOL").is_ok() {
+        let all: Vec<Take> = takes.iter().map(|t| Take { sound: &t.3, script: &t.4, pins: &[] }).collect();
+        works(model, &all).into_iter().map(|w| Some(w.unwrap().alignment(model))).collect()
+    } else {
+        takes.iter().map(|t| run(model, &t.0, &t.3, &t.4)).collect()
+    };
+    for ((file, truth, closed, ..), a) in takes.iter().zip(pooled) {
+        let Some(a) = a else { continue };
         errors.add(&truth.iter().map(|t| (t.1, t.2)).collect::<Vec<_>>(), &times(&a));
         sure.extend(a.syllables.iter().map(|s| s.confidence));
         if std::env::var("SHOW").is_ok() {
@@ -205,7 +215,7 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
             .map(|p| p.start)
             .collect();
         assert_eq!(found.len(), closed.len(), "{file}");
-        lips.0.extend(found.iter().zip(&closed).map(|(a, b)| (a - b).abs()));
+        lips.0.extend(found.iter().zip(closed).map(|(a, b)| (a - b).abs()));
     }
     errors.print(name);
     table(&sure, &errors.right());
