@@ -42,7 +42,8 @@ pub fn nuclei(sound: &Sound) -> Heard {
     let pitch = pitch(sound);
     let spans = sound.sounding();
     let step = |time: f64| ((time * STEPS).round() as usize).min(curve.len());
-    let mut levels: Vec<f32> = spans.iter().flat_map(|(from, to)| curve[step(*from)..step(*to)].iter().copied()).collect();
+    let mut levels: Vec<f32> =
+        spans.iter().flat_map(|(from, to)| curve[step(*from)..step(*to)].iter().copied()).collect();
     levels.sort_by(f32::total_cmp);
     let loud = levels.get((levels.len() as f64 * LOUD) as usize).copied().unwrap_or(0.0);
     let mut heard = Heard::default();

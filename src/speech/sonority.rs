@@ -27,7 +27,8 @@ pub(super) fn sonority(samples: &[f32], rate: u32) -> Vec<f32> {
         })
         .collect();
     let half = (SMOOTH * rate) as usize;
-    let bell: Vec<f64> = (0..2 * half + 1).map(|i| 0.5 - 0.5 * (TAU * (i + 1) as f64 / (2 * half + 2) as f64).cos()).collect();
+    let bell: Vec<f64> =
+        (0..2 * half + 1).map(|i| 0.5 - 0.5 * (TAU * (i + 1) as f64 / (2 * half + 2) as f64).cos()).collect();
     let sum: f64 = bell.iter().sum();
     let count = (samples.len() as f64 / rate * STEPS).ceil() as usize;
     (0..count)

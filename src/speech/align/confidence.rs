@@ -90,7 +90,8 @@ impl Sides<'_> {
             let mut lost = 0.0;
             for by in 1..=REACH as isize {
                 let place = if step > 0 { at as isize + by - 1 } else { at as isize - by };
-                let Some(taken) = usize::try_from(place - self.from as isize).ok().and_then(|i| self.taken.get(i)) else {
+                let Some(taken) = usize::try_from(place - self.from as isize).ok().and_then(|i| self.taken.get(i))
+                else {
                     break;
                 };
                 lost += taken[place as usize] - row[place as usize];

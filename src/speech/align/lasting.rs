@@ -5,7 +5,8 @@ use super::units::{UNITS, Unit};
 
 /// How much the times count against the sound: frames that follow each other say much the same, times say something
 /// new.
-static WEIGHT: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("WEIGHT").map_or(3.0, |s| s.parse().unwrap()));
+static WEIGHT: std::sync::LazyLock<f32> =
+    std::sync::LazyLock::new(|| std::env::var("WEIGHT").map_or(3.0, |s| s.parse().unwrap()));
 
 /// The last syllable before a pause is drawn out by so much.
 const DRAWN: f32 = 1.35;

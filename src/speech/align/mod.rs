@@ -30,7 +30,8 @@ use super::{Alignment, Take};
 use crate::disk::Result;
 
 /// Passes after the first, each with the model moved towards what the one before found.
-static PASSES: std::sync::LazyLock<usize> = std::sync::LazyLock::new(|| std::env::var("PASSES").map_or(3, |s| s.parse().unwrap()));
+static PASSES: std::sync::LazyLock<usize> =
+    std::sync::LazyLock::new(|| std::env::var("PASSES").map_or(3, |s| s.parse().unwrap()));
 
 /// Aligns the takes of one speaker, each to its own script. Their sound is pooled to adapt the model to the voice
 /// where that helps.

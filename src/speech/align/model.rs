@@ -104,7 +104,8 @@ impl Model {
     pub fn learned() -> &'static Self {
         static MODEL: LazyLock<Model> = LazyLock::new(|| {
             // The file is part of the program: a fault in it is ours and the tests'.
-            Model::read(LEARNED).unwrap_or_else(|| Model { mixtures: vec![Vec::new(); UNITS.len()], confidence: [0.0; SIGNS] })
+            Model::read(LEARNED)
+                .unwrap_or_else(|| Model { mixtures: vec![Vec::new(); UNITS.len()], confidence: [0.0; SIGNS] })
         });
         &MODEL
     }
@@ -165,8 +166,7 @@ impl Model {
             let (low, high) = all().map(of).fold((f32::MAX, f32::MIN), |(l, h), x| (l.min(x), h.max(x)));
             (low, (high - low).max(1e-6))
         };
-        let scales: Vec<_> =
-            (0..DIMS).map(|d| (range(&|g| g.mean[d]), range(&|g| g.variance[d].ln()))).collect();
+        let scales: Vec<_> = (0..DIMS).map(|d| (range(&|g| g.mean[d]), range(&|g| g.variance[d].ln()))).collect();
         for (m, v) in &scales {
             for number in [m.0, m.1, v.0, v.1] {
                 out.extend(number.to_le_bytes());
@@ -205,7 +205,10 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let model = Model { mixtures: (0..UNITS.len()).map(|u| (0..u % 3).map(|k| gaussian((u + k) as f32)).collect()).collect(), confidence: [0.5; SIGNS] };
+        let model = Model {
+            mixtures: (0..UNITS.len()).map(|u| (0..u % 3).map(|k| gaussian((u + k) as f32)).collect()).collect(),
+            confidence: [0.5; SIGNS],
+        };
         let bytes = model.write();
         let read = Model::read(&bytes).unwrap();
         for (a, b) in model.mixtures.iter().flatten().zip(read.mixtures.iter().flatten()) {
@@ -235,7 +238,8 @@ mod tests {
             levels: vec![0.0; 37],
             ..Features::default()
         };
-        let terms: Vec<Vec<Terms>> = vec![vec![Terms::of(&gaussian(1.0)), Terms::of(&gaussian(2.0))], vec![Terms::of(&gaussian(5.0))]];
+        let terms: Vec<Vec<Terms>> =
+            vec![vec![Terms::of(&gaussian(1.0)), Terms::of(&gaussian(2.0))], vec![Terms::of(&gaussian(5.0))]];
         let judged = judge(&terms, &heard);
         for (row, terms) in judged.iter().zip(&terms) {
             assert_eq!(row.len(), 37);

@@ -141,4 +141,3 @@ pub fn partings(sections: &[Section], ways: &[Way], syllables: &[SpokenSyllable]
     notes.sort_by(|a, b| a.0.total_cmp(&b.0));
     notes.into_iter().map(|n| n.1).collect()
 }
-

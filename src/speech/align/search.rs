@@ -214,9 +214,7 @@ impl Search<'_> {
         }
         // Back from the end.
         let mut touched = false;
-        let edge = |t: usize, b: Band| {
-            (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to)
-        };
+        let edge = |t: usize, b: Band| (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to);
         let mut t = section.to;
         let mut link = lengths.len();
         for number in (0..=section.last - section.first).rev() {

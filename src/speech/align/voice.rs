@@ -153,7 +153,8 @@ pub fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<
 /// How much better a model fits what was found than another, in logarithms a frame.
 #[must_use]
 pub fn gain(before: &Model, after: &Model, heard: &Features, labels: &[Unit]) -> f32 {
-    let terms = |m: &Model| -> Vec<Vec<Terms>> { m.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect() };
+    let terms =
+        |m: &Model| -> Vec<Vec<Terms>> { m.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect() };
     let (before, after) = (terms(before), terms(after));
     let (mut sum, mut frames) = (0.0_f64, 0_usize);
     // Every third frame says as much as all.

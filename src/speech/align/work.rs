@@ -14,14 +14,16 @@ use crate::disk::{Fault, Result};
 use crate::speech::{Alignment, Note, Pin, Take};
 
 /// How much the sound counts: frames overlap and follow each other, and say much the same.
-static SOUND: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("SOUND").map_or(0.2, |s| s.parse().unwrap()));
+static SOUND: std::sync::LazyLock<f32> =
+    std::sync::LazyLock::new(|| std::env::var("SOUND").map_or(0.2, |s| s.parse().unwrap()));
 
 fn env(name: &str, usual: f32) -> f32 {
     std::env::var(name).map_or(usual, |s| s.parse().unwrap())
 }
 
 /// What leaving the way costs.
-static COSTS: std::sync::LazyLock<Costs> = std::sync::LazyLock::new(|| Costs { pause: env("PAUSE", 6.0), other: env("OTHER", 40.0), skip: env("SKIP", 40.0) });
+static COSTS: std::sync::LazyLock<Costs> =
+    std::sync::LazyLock::new(|| Costs { pause: env("PAUSE", 6.0), other: env("OTHER", 40.0), skip: env("SKIP", 40.0) });
 
 /// Frames to either side of a rough way that are searched.
 const WIDE: usize = 200;
@@ -99,7 +101,20 @@ impl Work {
         let units = chain.units();
         let pins = take.pins.iter().copied().filter(|p| p.syllable < count).collect();
         let (ways, signs) = (Vec::new(), Vec::new());
-        Ok(Self { heard, chain, pins, units, silence, sections, ways, signs, fit: 0.0, sense: f32::INFINITY, rate, duration })
+        Ok(Self {
+            heard,
+            chain,
+            pins,
+            units,
+            silence,
+            sections,
+            ways,
+            signs,
+            fit: 0.0,
+            sense: f32::INFINITY,
+            rate,
+            duration,
+        })
     }
 
     /// Searches once, by a model.
@@ -119,8 +134,7 @@ impl Work {
         let first = self.ways.is_empty();
         let near = |number: usize| self.ways.get(number).map(|w| w.links.as_slice());
         let width = if first { WIDE } else { NARROW };
-        let ways: Vec<Way> =
-            self.sections.iter().enumerate().map(|(n, s)| search.way(s, near(n), width)).collect();
+        let ways: Vec<Way> = self.sections.iter().enumerate().map(|(n, s)| search.way(s, near(n), width)).collect();
         let snr = self.heard.snr;
         self.signs = self
             .sections
@@ -161,9 +175,9 @@ impl Work {
     /// What was found.
     #[must_use]
     pub fn alignment(&self, model: &Model) -> Alignment {
-        let confidence: Vec<f64> =
-            self.signs.iter().map(|s| confidence::confidence(s, &model.confidence)).collect();
-        let syllables = outcome::spoken(&self.chain, &self.sections, &self.ways, &self.pins, &confidence, self.duration);
+        let confidence: Vec<f64> = self.signs.iter().map(|s| confidence::confidence(s, &model.confidence)).collect();
+        let syllables =
+            outcome::spoken(&self.chain, &self.sections, &self.ways, &self.pins, &confidence, self.duration);
         let mut notes = Vec::new();
         if self.heard.snr < NOISY {
             notes.push(Note::Noisy { snr: f64::from(self.heard.snr) });
