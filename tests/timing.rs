@@ -535,6 +535,32 @@ fn the_command_converts_times_and_ratios_by_their_content() {
 }
 
 #[test]
+fn the_command_converts_mouth_shapes_at_any_frame_rate() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mouth.dat");
+    std::fs::write(&path, "MohoSwitch1\n1 rest\n31 MBP\n46 AI\n61 rest\n").unwrap();
+    let moho = path.to_str().unwrap();
+    let (_, tsv, _) = convert(&[moho, "--to", "rhubarb-tsv", "--fps", "30"]);
+    assert_eq!(tsv, "0\tX\n1\tA\n1.5\tD\n2\tX\n");
+    let (_, tsv, _) = convert(&[moho, "--to", "rhubarb-tsv"]);
+    assert!(tsv.contains("1.25\tA"), "{tsv}");
+    let cues = folder.path().join("cues.tsv");
+    std::fs::write(&cues, "0\tX\n1\tA\n1.5\tD\n2\tX\n").unwrap();
+    let (_, back, _) = convert(&[cues.to_str().unwrap(), "--to", "moho", "--fps", "30"]);
+    assert_eq!(back, "MohoSwitch1\n1 rest\n31 MBP\n46 AI\n61 rest\n");
+    let (_, grid, _) = convert(&[cues.to_str().unwrap(), "--to", "textgrid"]);
+    assert_eq!(parse(grid.as_bytes(), Format::TextGrid).unwrap().tiers[0].intervals[0].label, "m");
+    let times = folder.path().join("times.csv");
+    std::fs::write(&times, write(&sample(), Format::Csv)).unwrap();
+    let (code, _, error) = convert(&[times.to_str().unwrap(), "--to", "rhubarb-json"]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("there is no tier `shapes`"), "{error}");
+    let (code, _, error) = convert(&[times.to_str().unwrap(), "--to", "moho", "--tier", "syllables"]);
+    assert_eq!(code, Some(2));
+    assert!(error.contains("`nin2` at 0.300 s in the tier `syllables` is no mouth shape"), "{error}");
+}
+
+#[test]
 fn the_command_tells_a_wrong_call_from_a_wrong_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("times.srt");
@@ -544,7 +570,7 @@ fn the_command_tells_a_wrong_call_from_a_wrong_file() {
     std::fs::write(&record, "frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n").unwrap();
     let ratios = record.to_str().unwrap();
     for (arguments, code, said) in [
-        (&[times, "--to", "mp3"][..], 2, "textgrid, textgrid-short, srt, vtt, csv, json"),
+        (&[times, "--to", "mp3"][..], 2, "textgrid, textgrid-short, srt, vtt, csv, json, audacity"),
         (&[ratios, "--to", "srt"], 2, "csv, json"),
         (&[times, "--to", "csv", "--tier", "words"], 2, "the tiers are syllables"),
         (&[ratios, "--to", "json"], 1, "no rows"),

@@ -274,8 +274,11 @@ impl Clip {
     }
 }
 
-/// What recordings are called at their end. Only WAV is read so far; the others are named when they are found.
-const SOUNDS: [&str; 7] = ["wav", "wave", "mp3", "ogg", "flac", "m4a", "opus"];
+/// What recordings are called at their end. What is in them their content says; Opus is named when it is found.
+pub(super) const SOUNDS: [&str; 22] = [
+    "wav", "wave", "bwf", "aif", "aiff", "aifc", "mp3", "ogg", "oga", "flac", "m4a", "m4b", "aac", "mp4", "m4v", "mov",
+    "3gp", "mkv", "mka", "webm", "opus", "wma",
+];
 
 /// `speech.*` in a clip's folder.
 fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {

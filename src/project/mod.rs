@@ -17,6 +17,7 @@ mod label;
 mod lesson;
 mod manifest;
 mod said;
+mod quality;
 mod save;
 mod times;
 
@@ -31,4 +32,5 @@ pub use history::History;
 pub use lesson::{Lesson, projects_in};
 pub(crate) use manifest::check_output;
 pub use manifest::{ClipEntry, FaceEntry, LayerEntry, MANIFEST, Manifest, Output};
+pub use quality::quality;
 pub use said::Said;

@@ -10,13 +10,6 @@ use crate::speech::Pin;
 use crate::timeline::Spoken;
 use crate::timing::{self, Interval, Tier, Timing};
 
-/// Tiers that hold something else than what is said, in order.
-const NO_SYLLABLES: [&str; 3] = ["phones", "shapes", super::doubts::CONFIDENCE];
-
-/// What the tier of syllables is called elsewhere.
-const USUAL: [&str; 9] =
-    ["syllable", "syls", "characters", "character", "hanzi", "pinyin", "words", "word", "segments"];
-
 impl Clip {
     /// Checks times against the script and takes them.
     pub(super) fn take_timing(&mut self, mut timing: Timing) -> Result<()> {
@@ -27,17 +20,18 @@ impl Clip {
             ))
             .help("shapes: m f h a i u e o n, and h' for h"));
         }
-        let Some(name) = self.syllable_tier(&timing)? else {
+        let Some(tier) = self.syllable_tier(&timing).cloned() else {
+            let Some(shapes) = timing.shapes().cloned() else {
+                let names: Vec<&str> = timing.tiers.iter().map(|t| t.name.as_str()).collect();
+                return Err(Fault::new("there is no tier `syllables`")
+                    .help(format!("name the tier with the syllables so; its tiers are {}", names.join(", "))));
+            };
             // Shapes alone, as other programs of lip movement write them.
-            let shapes = timing.tier("shapes").cloned();
             self.guess();
             self.timing.duration = self.timing.duration.max(timing.duration);
-            if let Some(shapes) = shapes {
-                self.timing.set_tier(shapes);
-            }
+            self.timing.set_tier(shapes);
             return Ok(());
         };
-        let Some(tier) = timing.tier(&name).cloned() else { return Ok(()) };
         if self.plain.is_empty() && self.script.is_empty() {
             // Times without a script: the labels are the script.
             let labels: Vec<&str> = tier.spoken().map(|i| i.label.as_str()).collect();
@@ -53,37 +47,23 @@ impl Clip {
             }
         }
         // The tier of syllables may have any name in a file; here it has its own. Words and phrases stay beside it.
-        if name != "syllables" && !timing.guessed {
-            timing.tiers.retain(|t| t.name != name);
+        if tier.name != "syllables" && !timing.guessed {
+            timing.tiers.retain(|t| t.name != tier.name);
         }
         timing.set_tier(syllables);
         self.timing = timing;
         Ok(())
     }
 
-    /// The name of the tier that holds what is said: `syllables`, else the one that says the script, syllable by
-    /// syllable or in larger pieces, else the only one, else one with a usual name. None where there are only shapes.
-    fn syllable_tier(&self, timing: &Timing) -> Result<Option<String>> {
-        if timing.tier("syllables").is_some() {
-            return Ok(Some("syllables".into()));
+    /// The tier that holds what is said: `syllables`, else the one that says the script, syllable by syllable or in
+    /// larger pieces, else the likeliest. None where there are only shapes.
+    fn syllable_tier<'a>(&self, timing: &'a Timing) -> Option<&'a Tier> {
+        let found = timing::fitting_tier(timing, &self.plain, label_fits);
+        let fits = |t: &&Tier| t.name == "syllables" || timing::first_parting(&self.plain, t, label_fits).is_none();
+        if self.plain.is_empty() || found.is_some_and(|t| fits(&t)) {
+            return found;
         }
-        let candidates = || timing.tiers.iter().filter(|t| !NO_SYLLABLES.contains(&t.name.as_str()));
-        let says = |tier: &&Tier| timing::first_parting(&self.plain, tier, label_fits).is_none();
-        let found = if self.plain.is_empty() {
-            candidates().find(|t| USUAL.contains(&t.name.to_lowercase().as_str()))
-        } else {
-            candidates().find(says).or_else(|| candidates().find(|t| self.shared_out(t).is_some()))
-        };
-        let only = || candidates().next().filter(|_| candidates().count() == 1);
-        if let Some(tier) = found.or_else(only) {
-            return Ok(Some(tier.name.clone()));
-        }
-        if timing.tier("shapes").is_some() {
-            return Ok(None);
-        }
-        let names: Vec<&str> = timing.tiers.iter().map(|t| t.name.as_str()).collect();
-        Err(Fault::new("there is no tier `syllables`")
-            .help(format!("name the tier with the syllables so; its tiers are {}", names.join(", "))))
+        timing.tiers.iter().find(|t| self.shared_out(t).is_some()).or(found)
     }
 
     /// The syllables of labels that hold several each, as words and subtitles do: they share their label's time. None

@@ -283,6 +283,7 @@ pub fn write_tier(timing: &Timing, format: Format, name: &str) -> Result<String>
     };
     let mut tier = tier.clone();
     if format.holds_shapes() {
+        shapes::check(&tier)?;
         shapes::TIER.clone_into(&mut tier.name);
     }
     let alone = Timing { tiers: vec![tier], ..*timing };

@@ -41,7 +41,7 @@ const FLATTEST: f32 = 3.0;
 const SHORTEST: f64 = 0.05;
 
 /// A voice this much above the noise or less, in dB, is hard to follow.
-const NOISY: f32 = 17.0;
+const NOISY: f32 = 22.0;
 
 /// A script that fits the sound by less than this better than its syllables the other way round, a syllable, is not
 /// what is said. Of 208 synthesised recordings with their own script the least was 5.5, of as many with that of another

@@ -73,7 +73,7 @@ fn run(model: &Model, name: &str, sound: &Sound, script: &[Syllable]) -> Option<
                     a.syllables.iter().filter(|s| !s.heard).count()
                 );
             }
-            for note in &a.notes {
+            for note in a.notes.iter().filter(|n| !matches!(n, lianpu::speech::Note::Noisy { .. })) {
                 println!("{name}: {note}");
             }
             Some(a)
@@ -105,6 +105,12 @@ pub fn all(model: &Model, data: &Path, which: &[String]) {
         synthetic(model, &data.join("espeak"), "espeak clean", |n| !n.contains("snr"), None);
         synthetic(model, &data.join("espeak"), "espeak 20 dB", |n| n.contains("snr20"), None);
         synthetic(model, &data.join("espeak"), "espeak 10 dB", |n| !n.contains("snr"), Some(10.0));
+    }
+    for folder in which.iter().filter(|w| w.starts_with("tests:")) {
+        let folder = Path::new(&folder[6..]);
+        synthetic(model, folder, "tests clean", |n| !n.contains("snr"), None);
+        synthetic(model, folder, "tests 20 dB", |n| n.contains("snr20"), None);
+        synthetic(model, folder, "tests 10 dB", |n| n.contains("snr10"), None);
     }
     for folder in which.iter().filter(|w| w.starts_with("parted:")) {
         parted(model, Path::new(&folder[7..]));
