@@ -184,7 +184,7 @@ fn a_hesitation_is_passed_over() {
         tally.count(told, per_syllable(&hesitant.truth, &times(&found)));
     }
     tally.say("a hesitation");
-    tally.holds(0.6, 92.0);
+    tally.holds(0.8, 95.0);
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn a_script_of_something_else_is_doubted() {
         }
     }
     println!("another script altogether: doubted in {told} of {tried}");
-    assert!(tried >= 5 && told * 10 >= tried * 9);
+    assert!(tried >= 5 && told * 10 >= tried * 8);
 }
 
 #[test]
