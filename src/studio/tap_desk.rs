@@ -316,7 +316,7 @@ pub(super) fn lines(state: &State, tapping: &Tapping, clip: &Clip) -> Vec<String
     let name = |i: usize| clip.syllables.get(i).map(|s| format!("{} {}", s.text, s.pinyin).trim_end().to_owned());
     let speed = if tapping.speed < 1.0 { "half speed" } else { "full speed" };
     let source = match state.can_hear {
-        true => "you hear the clip from here".to_owned(),
+        true => "the clip is played here; if you hear nothing, play it yourself when the count ends".to_owned(),
         false => format!(
             "no sound from here: play the recording yourself{}, from {:.2} s, when the count ends",
             if tapping.speed < 1.0 { " at half speed" } else { "" },
