@@ -358,3 +358,46 @@ fn the_outer_ends_of_speech_are_found() {
     let (mean, worst) = said("real, pauses set by a person", &errors);
     assert!(mean < 15.0 && worst < 50.0, "{spans:.3?}");
 }
+
+/// The samples of a recording with white noise so far below its mean level, in dB.
+fn with_noise(sound: &Sound, db: f64) -> Sound {
+    let mean = sound.samples.iter().map(|s| f64::from(*s).powi(2)).sum::<f64>() / sound.samples.len() as f64;
+    let size = (3.0 * mean).sqrt() * 10.0_f64.powf(-db / 20.0);
+    let mut state = 1_u32;
+    let noise = |s: &f32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        s + (size * (f64::from(state >> 8) / f64::from(1 << 23) - 1.0)) as f32
+    };
+    Sound::new(sound.rate, sound.samples.iter().map(noise).collect())
+}
+
+#[test]
+fn good_recordings_pass_without_remark_and_noisy_ones_do_not() {
+    let Some(folder) = test_data::find("speech") else { return };
+    for kind in ["espeak", "mbrola", "real", "self", "english"] {
+        let (mut clean, mut noisy, mut files) = (Vec::new(), Vec::new(), 0);
+        for entry in std::fs::read_dir(folder.join(kind)).unwrap().filter_map(Result::ok) {
+            let path = entry.path();
+            if path.extension().is_none_or(|e| e != "wav") {
+                continue;
+            }
+            let sound = Sound::read(&path).unwrap();
+            let quality = sound.quality();
+            // Among them are the recordings with noise at 20 dB.
+            assert!(quality.remarks().is_empty(), "{}: {:?}", path.display(), quality.remarks());
+            files += 1;
+            clean.push(quality.snr_db);
+            if kind == "espeak" && !path.to_string_lossy().contains("snr") {
+                let quality = with_noise(&sound, 10.0).quality();
+                assert!(quality.remarks()[0].starts_with("noisy"), "{}: {quality:?}", path.display());
+                noisy.push(quality.snr_db);
+            }
+        }
+        let range = |values: &[f64]| {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            format!("{least:.1} to {:.1} dB", values.iter().copied().fold(0.0, f64::max))
+        };
+        println!("{kind}: {files} files, voice above noise {}; noise at 10 dB: {}", range(&clean), range(&noisy));
+        assert!(files > 0);
+    }
+}

@@ -10,7 +10,7 @@ use super::times::{Row, json, seconds, table};
 use crate::disk::{Fault, Result, read_text, write_whole};
 use crate::project::{AlignJob, Clip, Lesson};
 use crate::script::{self, Syllable, System};
-use crate::speech::{self, Alignment, Sound, Take};
+use crate::speech::{self, Alignment, Note, Sound, Take};
 use crate::timing::{self, Format, Interval, Tier, Timing};
 
 /// Find when each syllable of a script is spoken. In a lesson the times go into timing.TextGrid; boundaries that you have
@@ -76,7 +76,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let take = Take { sound: &sound, script: &syllables, pins: &[] };
     let found = speech::align(&[take]).pop().unwrap_or_else(|| Err(Fault::new("nothing was found")));
     let found = found.map_err(|f| f.at(speech))?;
-    for note in &found.notes {
+    for note in notes(&found) {
         eprintln!("note: {note}");
     }
     let rows: Vec<Row> = syllables.iter().zip(&found.syllables).map(|(s, f)| Row::found(s, f)).collect();
@@ -124,7 +124,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
             let name = lesson.clips[number].entry.name.clone();
             match found {
                 Ok(found) => {
-                    for note in &found.notes {
+                    for note in notes(&found) {
                         eprintln!("note: clip {name}: {note}");
                     }
                     match lesson.aligned(number, &found) {
@@ -216,10 +216,16 @@ fn summary(clip: &Clip) -> String {
     line
 }
 
+/// Says what was wrong with a recording's file and is wrong with its sound.
 fn warn(sound: &Sound) {
-    for warning in &sound.warnings {
+    for warning in sound.warnings.iter().chain(&sound.quality().remarks()) {
         eprintln!("note: {warning}");
     }
+}
+
+/// The notes of an alignment; that a recording is noisy has been said with its other qualities.
+fn notes(found: &Alignment) -> impl Iterator<Item = &Note> {
+    found.notes.iter().filter(|n| !matches!(n, Note::Noisy { .. }))
 }
 
 /// The tiers of an alignment outside a lesson.

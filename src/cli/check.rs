@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::output_fault;
 use crate::disk::{Fault, Result};
-use crate::project::{Finding, check};
+use crate::project::{Finding, check, quality};
 
 /// Say what lessons have, lack, and have wrong. Exit code 1 if anything is wrong.
 #[derive(Debug, clap::Args)]
@@ -13,6 +13,9 @@ pub struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     projects: Vec<PathBuf>,
+    /// Also how good the recordings are and where times are doubtful, place by place.
+    #[arg(long)]
+    quality: bool,
     /// One JSON object a finding.
     #[arg(long)]
     json: bool,
@@ -25,7 +28,11 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         if !args.json {
             writeln!(out, "{}", project.display()).map_err(output_fault)?;
         }
-        for finding in check(project) {
+        let mut findings = check(project);
+        if args.quality {
+            findings.extend(quality(project));
+        }
+        for finding in findings {
             let (kind, text) = match &finding {
                 Finding::Fine(text) => ("fine", text.clone()),
                 Finding::Odd(text) => ("odd", text.clone()),

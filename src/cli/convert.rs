@@ -13,15 +13,19 @@ use crate::timing::{self, Format};
 pub struct Args {
     /// The file to convert; its content tells what it is
     file: PathBuf,
-    /// Times: textgrid, textgrid-short, srt, vtt, csv, json. Ratios: csv, json
+    /// Times: textgrid, textgrid-short, srt, vtt, csv, json, audacity, ctm, lab. Mouth shapes: these and rhubarb-tsv,
+    /// rhubarb-json, rhubarb-xml, moho. Ratios: csv, json
     #[arg(long, value_name = "FORMAT")]
     to: String,
     /// Where to write; without it to standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// The one tier to write; without it all, or for subtitles the words, else the syllables
+    /// The one tier to write; without it all, or for formats of one tier the words, else the syllables
     #[arg(long, value_name = "NAME")]
     tier: Option<String>,
+    /// Frames a second of a Moho file, read or written, which does not say it; 24 where left out
+    #[arg(long, value_name = "FPS", value_parser = clap::value_parser!(u32).range(1..=240))]
+    fps: Option<u32>,
 }
 
 /// Converts one file.
@@ -40,7 +44,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 .help("give a timing file or a ratio record")
                 .of_the_call());
         }
-        Kind::Times => times(&args.file, to, args.tier.as_deref())?,
+        Kind::Times => times(args, &bytes, to)?,
     };
     match &args.out {
         Some(path) => disk::write_whole(path, text.as_bytes()),
@@ -84,14 +88,19 @@ fn ratios(path: &Path, to: Format, tier: Option<&str>) -> Result<String> {
     Ok(if to == Format::Json { record.to_json() } else { record.to_csv() })
 }
 
-fn times(path: &Path, to: Format, tier: Option<&str>) -> Result<String> {
-    let timing = timing::read(path)?;
-    if let Some(name) = tier {
-        return timing::write_tier(&timing, to, name).map_err(|fault| fault.at(path).of_the_call());
+fn times(args: &Args, bytes: &[u8], to: Format) -> Result<String> {
+    let mut timing = timing::read(&args.file)?;
+    let frames = args.fps.map_or(1.0, |fps| f64::from(fps) / timing::MOHO_FPS);
+    let says = bytes.windows(5).any(|line| line == b"\nFPS ");
+    if Format::sniff(bytes) == Some(Format::Moho) && !says {
+        timing.stretch(1.0 / frames);
     }
-    let nothing = timing.subtitles().is_none_or(|tier| tier.intervals.is_empty());
-    if nothing && matches!(to, Format::Srt | Format::WebVtt) {
-        return Err(Fault::new("there is no label to make a subtitle of").at(path).help("name another tier by --tier"));
+    if to == Format::Moho {
+        timing.stretch(frames);
     }
+    if let Some(name) = &args.tier {
+        return timing::write_tier(&timing, to, name).map_err(|fault| fault.at(&args.file).of_the_call());
+    }
+    timing::writable(&timing, to).map_err(|fault| fault.at(&args.file))?;
     Ok(timing::write(&timing, to))
 }

@@ -14,7 +14,7 @@ pub struct Args {
     /// The folder to make; its last part names the lesson and its clip.
     #[arg(value_name = "PROJECT")]
     project: PathBuf,
-    /// The recording, a WAV file.
+    /// The recording: WAV, AIFF, FLAC, OGG, MP3, M4A, or a video with its sound.
     #[arg(long, value_name = "FILE")]
     speech: Option<PathBuf>,
     /// What is said in it: characters, Pinyin, Zhuyin, Tongyong or English.
@@ -23,7 +23,7 @@ pub struct Args {
     /// How the script is written; told from the text where left out.
     #[arg(long, value_name = "SYSTEM")]
     from: Option<System>,
-    /// When it is said: TextGrid, SRT, WebVTT, CSV or JSON.
+    /// When it is said: TextGrid, SRT, WebVTT, CSV, JSON, labels of Audacity, CTM, HTK; or mouth shapes of Rhubarb or Moho.
     #[arg(long, value_name = "FILE")]
     timing: Option<PathBuf>,
     /// A ratio record, ratios.csv.

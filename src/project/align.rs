@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use super::change::Times;
-use super::clip::{CONFIDENCE, Clip, NOT_HEARD, NOT_IN_SCRIPT};
-use super::{Change, Edit, Lesson};
+use super::doubts::{CONFIDENCE, NOT_HEARD, NOT_IN_SCRIPT};
+use super::{Change, Clip, Edit, Lesson};
 use crate::disk::{Fault, Result};
 use crate::script::{self, Syllable};
 use crate::speech::{self, Alignment, Note, Pin, Sound, Take};
@@ -129,8 +129,6 @@ fn counted(syllables: usize) -> String {
 /// The tiers of an alignment. The labels of syllables stay as they are; tiers that this program does not write stay.
 fn timing_of(clip: &Clip, alignment: &Alignment) -> Timing {
     let mut timing = Timing { guessed: false, ..clip.timing.clone() };
-    // Shapes that an older analysis or another program gave would hide what was just found.
-    timing.tiers.retain(|t| t.name != "shapes");
     let labels = clip.intervals();
     let mut syllables = Tier::new("syllables");
     let mut phones = Tier::new("phones");

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::clip::CONFIDENCE;
+use super::doubts::CONFIDENCE;
 use super::said::Said;
 use super::{Clip, LessonFace};
 use crate::disk::{Fault, Result};

@@ -4,40 +4,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::change::Times;
-use super::label::{label_fits, label_reading};
+use super::label::label_reading;
 use super::manifest::ClipEntry;
+use super::times::{of_shapes, phones_of};
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
-use crate::pose::{MouthPreset, MouthShape};
+use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
 use crate::speech::{Pin, Sound};
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Interval, Tier, Timing};
-
-/// The tier in which an alignment says how sure it is of each syllable: `0.98`.
-pub(super) const CONFIDENCE: &str = "confidence";
-/// What that tier says of a syllable that was not heard, after its confidence.
-pub(super) const NOT_HEARD: &str = "not heard";
-/// What that tier says of a stretch between syllables that the script does not have.
-pub(super) const NOT_IN_SCRIPT: &str = "not in the script";
-
-/// Confidence from which on nothing is said of a syllable.
-const SURE: f64 = 0.75;
-
-/// A place that an author should look at.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Doubt {
-    /// Seconds.
-    pub start: f64,
-    /// Seconds.
-    pub end: f64,
-    /// The syllable; none where something is said that the script does not have.
-    pub syllable: Option<usize>,
-    /// How sure the alignment is of its times, 0 to 1.
-    pub confidence: f64,
-    /// Whether anything was heard: false for a syllable that the speaker left out.
-    pub heard: bool,
-}
 
 /// The longest label that is kept, in characters.
 pub const LABEL_LIMIT: usize = 100;
@@ -158,7 +134,7 @@ impl Clip {
                     );
                 } else {
                     clip.take_timing(timing).map_err(|f| f.at(&path))?;
-                    clip.timing.guessed = clip.score.guessed;
+                    clip.timing.guessed |= clip.score.guessed;
                 }
             }
             None => clip.guess(),
@@ -173,60 +149,8 @@ impl Clip {
         Ok(clip)
     }
 
-    /// Checks times against the script and takes them.
-    fn take_timing(&mut self, mut timing: Timing) -> Result<()> {
-        let Some(tier) = timing.syllables() else {
-            return Err(Fault::new("there is no tier `syllables`").help("name the tier with the syllables so"));
-        };
-        if self.plain.is_empty() && self.script.is_empty() {
-            // Times without a script: the labels are the script.
-            let labels: Vec<&str> = tier.spoken().map(|i| i.label.as_str()).collect();
-            self.script = labels.join(" ");
-            self.plain = script::syllables(&self.script, self.entry.script_system.unwrap_or(System::Auto))?;
-        }
-        timing::match_labels(&self.plain, tier, label_fits, |s| s.text.clone())?;
-        if let Some(wrong) = timing.tier("shapes").and_then(|t| t.spoken().find(|i| shape_of(&i.label).is_none())) {
-            return Err(Fault::new(format!(
-                "`{}` at {:.3} s in the tier `shapes` is no mouth shape",
-                wrong.label, wrong.start
-            ))
-            .help("shapes: m f h a i u e o n, and h' for h"));
-        }
-        let mut syllables = Tier::new("syllables");
-        syllables.intervals = tier.spoken().cloned().collect();
-        // The only tier of a file may have any name; here it has its own.
-        if timing.tier("syllables").is_none() {
-            timing.tiers.clear();
-        }
-        timing.set_tier(syllables);
-        self.timing = timing;
-        Ok(())
-    }
-
-    /// Whether times were found by an alignment to a script that was changed afterwards. Times that came otherwise are
-    /// somebody's work, and a script that does not fit them is a mistake to be told.
-    fn is_of_an_older_script(&self, timing: &Timing) -> bool {
-        let Some(tier) = timing.syllables().filter(|_| !self.plain.is_empty()) else { return false };
-        let parts = timing::first_parting(&self.plain, tier, label_fits).is_some();
-        parts && self.score.aligned.is_some() && self.score.aligned != self.fingerprint()
-    }
-
-    /// Keeps what a hand has set for the syllables that the new script still has.
-    fn carry_pins(&mut self, timing: &Timing) {
-        let Some(tier) = timing.syllables() else { return };
-        let labels: Vec<&Interval> = tier.spoken().collect();
-        for (old, new) in timing::common(&self.plain, &labels, |s, i| label_fits(s, &i.label)) {
-            if self.score.pins.binary_search(&new).is_ok() {
-                let interval = labels[new];
-                self.carried.push(Pin { syllable: old, start: interval.start, end: interval.end });
-            }
-        }
-        self.score.pins.clear();
-        self.score.aligned = None;
-    }
-
     /// Shares the sound among the syllables.
-    fn guess(&mut self) {
+    pub(super) fn guess(&mut self) {
         let labels: Vec<String> = self.plain.iter().map(|s| s.text.clone()).collect();
         let duration = if self.sound_seconds > 0.0 { self.sound_seconds } else { 0.3 * labels.len() as f64 };
         let sounding = self.sound.as_deref().map(Sound::sounding).unwrap_or_default();
@@ -262,40 +186,6 @@ impl Clip {
         let all_set = self.score.pins.len() >= self.syllables.len();
         let older = || self.score.aligned.is_some() && self.score.aligned != self.fingerprint();
         !all_set && (self.timing.guessed || older())
-    }
-
-    /// How sure a syllable's times are, 0 to 1: what an alignment found, 1 where a hand has set them. None where
-    /// nothing is known of it.
-    #[must_use]
-    pub fn confidence(&self, syllable: usize) -> Option<f64> {
-        if self.score.pins.binary_search(&syllable).is_ok() {
-            return Some(1.0);
-        }
-        let said = self.label_of_confidence(syllable)?;
-        said.split(' ').next()?.parse().ok().filter(|c| (0.0..=1.0).contains(c))
-    }
-
-    fn label_of_confidence(&self, syllable: usize) -> Option<&str> {
-        let interval = self.intervals().get(syllable)?;
-        let said = self.timing.tier(CONFIDENCE)?.at(f64::midpoint(interval.start, interval.end))?;
-        Some(said.label.as_str())
-    }
-
-    /// The places that an author should look at, by rising time: syllables of which the alignment is not sure, or that
-    /// were not heard, and what is said beside the script.
-    #[must_use]
-    pub fn doubts(&self) -> Vec<Doubt> {
-        let unsure = self.intervals().iter().enumerate().filter_map(|(i, interval)| {
-            let confidence = self.confidence(i).filter(|c| *c < SURE)?;
-            let heard = self.label_of_confidence(i).is_none_or(|l| !l.ends_with(NOT_HEARD));
-            Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence, heard })
-        });
-        let beside = self.timing.tier(CONFIDENCE).into_iter().flat_map(|t| &t.intervals);
-        let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT);
-        let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0, heard: true });
-        let mut doubts: Vec<Doubt> = unsure.chain(beside).collect();
-        doubts.sort_by(|a, b| a.start.total_cmp(&b.start));
-        doubts
     }
 
     /// The syllables' times, one for each.
@@ -384,8 +274,11 @@ impl Clip {
     }
 }
 
-/// What recordings are called at their end. Only WAV is read so far; the others are named when they are found.
-const SOUNDS: [&str; 7] = ["wav", "wave", "mp3", "ogg", "flac", "m4a", "opus"];
+/// What recordings are called at their end. What is in them their content says; Opus is named when it is found.
+pub(super) const SOUNDS: [&str; 22] = [
+    "wav", "wave", "bwf", "aif", "aiff", "aifc", "mp3", "ogg", "oga", "flac", "m4a", "m4b", "aac", "mp4", "m4v", "mov",
+    "3gp", "mkv", "mka", "webm", "opus", "wma",
+];
 
 /// `speech.*` in a clip's folder.
 fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
@@ -409,40 +302,4 @@ fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
             .at(folder)
             .help("keep one of them")),
     }
-}
-
-/// Start and end of each phone of a syllable, where the tier has them all, under the names they have here.
-fn phones_of(tier: &Tier, syllable: &Syllable, interval: &Interval) -> Option<Vec<(f64, f64)>> {
-    let from = tier.intervals.partition_point(|i| f64::midpoint(i.start, i.end) < interval.start);
-    let names = script::segments(syllable);
-    let inside = tier.intervals[from..].iter().take_while(|i| f64::midpoint(i.start, i.end) < interval.end);
-    let inside: Vec<&Interval> = inside.take(names.len() + 1).collect();
-    let same = inside.len() == names.len() && inside.iter().zip(&names).all(|(i, n)| i.label == *n);
-    (same && !names.is_empty()).then(|| inside.iter().map(|i| (i.start, i.end)).collect())
-}
-
-/// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).
-fn shape_of(label: &str) -> Option<MouthShape> {
-    let label = label.trim();
-    label.strip_suffix(['\'', '’']).unwrap_or(label).parse().ok()
-}
-
-/// Mouth shapes with times of their own: touching ones are one utterance.
-fn of_shapes(tier: &Tier) -> Vec<Spoken> {
-    const TOUCHING: f64 = 1e-3;
-    let mut runs: Vec<Vec<&Interval>> = Vec::new();
-    for interval in tier.spoken() {
-        match runs.last_mut() {
-            Some(run) if run.last().is_some_and(|l| interval.start - l.end < TOUCHING) => run.push(interval),
-            _ => runs.push(vec![interval]),
-        }
-    }
-    runs.iter()
-        .filter_map(|run| {
-            let (start, end) = (run.first()?.start, run.last()?.end);
-            let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
-            let shapes = run.iter().filter_map(|i| shape_of(&i.label).map(|s| (share(i.start), s))).collect();
-            Some(Spoken { start, end, shapes, exact: true })
-        })
-        .collect()
 }

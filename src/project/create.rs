@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::clip::SOUNDS;
 use super::face::FACE_FILE;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::{AlignJob, Lesson};
@@ -13,6 +14,7 @@ use crate::figure::LineFigure;
 use crate::geometry::Point;
 use crate::photo::{Photo, sha256, to_clean_png};
 use crate::script::System;
+use crate::speech::Note;
 use crate::timing::{self, Format};
 
 /// The largest recording that is copied: hours of sound.
@@ -157,11 +159,14 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
 /// aligned is no reason not to make a lesson of it.
 fn find_times(lesson: &mut Lesson) -> Result<Vec<String>> {
     let wanted: Vec<usize> = (0..lesson.clips.len()).filter(|n| lesson.clips[*n].wants_alignment()).collect();
-    let mut notes = Vec::new();
+    let sounds = lesson.clips.iter().filter_map(|c| c.sound.as_ref());
+    let mut notes: Vec<String> = sounds.flat_map(|s| s.quality().remarks()).collect();
     for (number, found) in AlignJob::of(lesson, &wanted)?.run() {
         match found {
             Ok(found) => {
-                notes.extend(found.notes.iter().map(ToString::to_string));
+                // That it is noisy is among what is said of the sound.
+                let said = found.notes.iter().filter(|n| !matches!(n, Note::Noisy { .. }));
+                notes.extend(said.map(ToString::to_string));
                 lesson.take_alignment(number, &found);
                 lesson.clips[number].save()?;
             }
@@ -228,7 +233,9 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
     let folder = root.join("clips").join(&clip.name);
     std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
     if let Some(path) = &new.speech {
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("wav").to_ascii_lowercase();
+        // What it is its content says; its name must be one that is found again.
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+        let extension = if SOUNDS.contains(&extension.as_str()) { extension } else { "wav".into() };
         write_whole(&folder.join(format!("speech.{extension}")), &read_bytes(path, MAX_SOUND_BYTES)?)?;
     }
     if let Some(path) = &new.script {

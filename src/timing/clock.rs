@@ -6,6 +6,19 @@ pub(super) fn seconds(time: f64) -> String {
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
 }
 
+/// A finite number with digits and perhaps a point and a sign; nothing where it is none.
+pub(super) fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let begins = text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
+    // `inf` and `nan` are words.
+    text.parse().ok().filter(|number: &f64| begins && number.is_finite())
+}
+
+/// A label as one line without tabs: blanks of any kind become `blank`.
+pub(super) fn one_line(label: &str, blank: &str) -> String {
+    label.split_whitespace().collect::<Vec<_>>().join(blank)
+}
+
 /// `00:00:01,250`; `point` stands before the milliseconds.
 pub(super) fn clock(time: f64, point: char) -> String {
     let ms = (time * 1e3).round().max(0.0) as u64;

@@ -1,11 +1,11 @@
-//! Bytes to text: UTF-8 with or without a byte order mark, or UTF-16 with one, as Praat writes it.
+//! Bytes to text: UTF-8 or UTF-16, as Praat writes it, with or without a byte order mark.
 
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 
 /// The text of a timing file, cleaned; lines keep their numbers.
 ///
 /// # Errors
-/// When it is too large, or neither UTF-8 nor marked UTF-16, with the line where that shows.
+/// When it is too large, or neither UTF-8 nor UTF-16, with the line where that shows.
 pub(super) fn text(bytes: &[u8]) -> Result<String> {
     if bytes.len() as u64 > MAX_TEXT_BYTES {
         return Err(Fault::new(format!("the file is larger than {} MB", MAX_TEXT_BYTES >> 20))
@@ -14,6 +14,9 @@ pub(super) fn text(bytes: &[u8]) -> Result<String> {
     match bytes {
         [0xFF, 0xFE, rest @ ..] => wide(rest, u16::from_le_bytes),
         [0xFE, 0xFF, rest @ ..] => wide(rest, u16::from_be_bytes),
+        // Every format begins with a letter, a digit or a sign of ASCII, whose other half is 0.
+        [1..=127, 0, ..] => wide(bytes, u16::from_le_bytes),
+        [0, 1..=127, ..] => wide(bytes, u16::from_be_bytes),
         _ => {
             let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
             std::str::from_utf8(bytes).map(disk::clean).map_err(|error| {

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-use super::{Tier, Timing, csv, cues, decode, json, textgrid};
+use super::{Tier, Timing, audacity, clock, csv, ctm, cues, decode, json, lab, moho, rhubarb, shapes, textgrid};
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 
 /// A way to write times down.
@@ -22,11 +22,39 @@ pub enum Format {
     Csv,
     /// One object with everything, for machines.
     Json,
+    /// Audacity's labels: one tier.
+    Audacity,
+    /// Time marked conversations of NIST and Kaldi: one tier, labels without blanks.
+    Ctm,
+    /// HTK's labels: one tier, labels without blanks.
+    Lab,
+    /// Mouth shapes of Rhubarb Lip Sync, as a table.
+    RhubarbTsv,
+    /// The same in JSON.
+    RhubarbJson,
+    /// The same in XML.
+    RhubarbXml,
+    /// Switch data of Moho and Papagayo: mouth shapes at 24 frames a second.
+    Moho,
 }
 
 impl Format {
     /// All of them, in the order they are listed to people.
-    pub const ALL: [Self; 6] = [Self::TextGrid, Self::TextGridShort, Self::Srt, Self::WebVtt, Self::Csv, Self::Json];
+    pub const ALL: [Self; 13] = [
+        Self::TextGrid,
+        Self::TextGridShort,
+        Self::Srt,
+        Self::WebVtt,
+        Self::Csv,
+        Self::Json,
+        Self::Audacity,
+        Self::Ctm,
+        Self::Lab,
+        Self::RhubarbTsv,
+        Self::RhubarbJson,
+        Self::RhubarbXml,
+        Self::Moho,
+    ];
 
     /// The name on the command line.
     #[must_use]
@@ -38,6 +66,13 @@ impl Format {
             Self::WebVtt => "vtt",
             Self::Csv => "csv",
             Self::Json => "json",
+            Self::Audacity => "audacity",
+            Self::Ctm => "ctm",
+            Self::Lab => "lab",
+            Self::RhubarbTsv => "rhubarb-tsv",
+            Self::RhubarbJson => "rhubarb-json",
+            Self::RhubarbXml => "rhubarb-xml",
+            Self::Moho => "moho",
         }
     }
 
@@ -46,8 +81,25 @@ impl Format {
     pub const fn extension(self) -> &'static str {
         match self {
             Self::TextGrid | Self::TextGridShort => "TextGrid",
+            Self::Audacity => "txt",
+            Self::RhubarbTsv => "tsv",
+            Self::RhubarbJson => "json",
+            Self::RhubarbXml => "xml",
+            Self::Moho => "dat",
             other => other.name(),
         }
+    }
+
+    /// Whether it holds one tier only: the words, or else the syllables, or the one that is named.
+    #[must_use]
+    pub const fn holds_one_tier(self) -> bool {
+        matches!(self, Self::Srt | Self::WebVtt | Self::Audacity | Self::Ctm | Self::Lab)
+    }
+
+    /// Whether it holds nothing but mouth shapes.
+    #[must_use]
+    pub const fn holds_shapes(self) -> bool {
+        matches!(self, Self::RhubarbTsv | Self::RhubarbJson | Self::RhubarbXml | Self::Moho)
     }
 
     /// What the ending of a file's name says.
@@ -69,18 +121,49 @@ impl Format {
                 Err(_) => return None,
             }
         };
-        let text = text.trim_start();
+        let text = text.trim_start_matches(['\n', ' ']);
         let first = text.lines().next().unwrap_or_default().to_ascii_lowercase();
         if textgrid::is_header(text) {
-            Some(if textgrid::is_short(text) { Self::TextGridShort } else { Self::TextGrid })
-        } else if first.starts_with("webvtt") {
-            Some(Self::WebVtt)
-        } else if first.starts_with('{') {
-            Some(Self::Json)
-        } else if csv::is_header(&first) {
-            Some(Self::Csv)
+            return Some(if textgrid::is_short(text) { Self::TextGridShort } else { Self::TextGrid });
+        }
+        if first.starts_with("webvtt") {
+            return Some(Self::WebVtt);
+        }
+        if first.trim_end() == moho::HEADER.to_ascii_lowercase() {
+            return Some(Self::Moho);
+        }
+        if first.starts_with('{') {
+            return Some(if text.contains("\"mouthCues\"") { Self::RhubarbJson } else { Self::Json });
+        }
+        if first.starts_with("<?xml") || first.starts_with("<rhubarbresult") {
+            return text.contains("<rhubarbResult").then_some(Self::RhubarbXml);
+        }
+        if csv::is_header(&first) {
+            return Some(Self::Csv);
+        }
+        let is_cue = |line: &str| line.split_once("-->").is_some_and(|(start, _)| clock::parse_clock(start).is_some());
+        if text.lines().take(3).any(is_cue) {
+            return Some(Self::Srt);
+        }
+        Self::of_lines(text, head.len() < bytes.len())
+    }
+
+    /// Told by what each line looks like; the last is left out where it may be cut.
+    fn of_lines(text: &str, cut: bool) -> Option<Self> {
+        let count = text.lines().count();
+        let whole = if cut && count > 1 { count - 1 } else { count };
+        let lines = || text.lines().take(whole).filter(|line| !line.trim().is_empty());
+        let all = |is: fn(&str) -> bool| lines().next().is_some() && lines().all(is);
+        if all(rhubarb::is_line) {
+            Some(Self::RhubarbTsv)
+        } else if all(|line| ctm::is_line(line) || ctm::is_remark(line)) && !all(ctm::is_remark) {
+            Some(Self::Ctm)
+        } else if lines().next().is_some_and(audacity::is_line) && !lines().next().is_some_and(lab::in_units) {
+            Some(Self::Audacity)
+        } else if lines().next().is_some_and(lab::is_line) {
+            Some(Self::Lab)
         } else {
-            text.lines().take(3).any(|l| l.contains("-->")).then_some(Self::Srt)
+            None
         }
     }
 }
@@ -96,7 +179,12 @@ impl FromStr for Format {
 
     fn from_str(text: &str) -> Result<Self> {
         let wanted = text.to_ascii_lowercase();
-        let wanted = if wanted == "webvtt" { "vtt" } else { &wanted };
+        let wanted = match wanted.as_str() {
+            "webvtt" => "vtt",
+            "tsv" | "rhubarb" => "rhubarb-tsv",
+            "dat" | "papagayo" => "moho",
+            wanted => wanted,
+        };
         Self::ALL.into_iter().find(|f| f.name() == wanted).ok_or_else(|| {
             Fault::new(format!("`{text}` is no timing format"))
                 .help(format!("the formats are {}", Self::ALL.map(Self::name).join(", ")))
@@ -117,6 +205,13 @@ pub fn parse(bytes: &[u8], format: Format) -> Result<Timing> {
         Format::WebVtt => cues::parse_vtt(&text),
         Format::Csv => csv::parse(&text),
         Format::Json => json::parse(&text),
+        Format::Audacity => audacity::parse(&text),
+        Format::Ctm => ctm::parse(&text),
+        Format::Lab => lab::parse(&text),
+        Format::RhubarbTsv => rhubarb::parse_tsv(&text),
+        Format::RhubarbJson => rhubarb::parse_json(&text),
+        Format::RhubarbXml => rhubarb::parse_xml(&text),
+        Format::Moho => moho::parse(&text),
     }
 }
 
@@ -134,24 +229,51 @@ pub fn read(path: &Path) -> Result<Timing> {
     parse(&bytes, format).map_err(|fault| fault.at(path))
 }
 
-/// Writes times. Subtitles hold one tier: the words, or else the syllables, or else the first.
+/// Makes sure that a format can hold something of these times.
+///
+/// # Errors
+/// Where it holds one tier and none says anything, or mouth shapes and there is no tier of them.
+pub fn writable(timing: &Timing, format: Format) -> Result<()> {
+    if format.holds_shapes() {
+        let none = || {
+            Fault::new(format!("`{format}` holds mouth shapes, and there is no tier `{}`", shapes::TIER))
+                .help("write it as textgrid, srt, vtt, csv, json, audacity, ctm or lab")
+        };
+        return shapes::check(timing.shapes().ok_or_else(none)?);
+    }
+    let nothing = timing.subtitles().is_none_or(|tier| tier.intervals.is_empty());
+    if nothing && format.holds_one_tier() {
+        return Err(Fault::new("there is no label to write").help("name another tier by --tier"));
+    }
+    Ok(())
+}
+
+/// Writes times. Subtitles and lists of labels hold one tier: the words, or else the syllables, or else the first.
+/// Formats of mouth shapes hold the tier `shapes`, or silence where there is none: ask [`writable`] before.
 #[must_use]
 pub fn write(timing: &Timing, format: Format) -> String {
-    let subtitles = || timing.subtitles().map_or(&[][..], |tier| tier.intervals.as_slice());
+    let one = || timing.subtitles().map_or(&[][..], |tier| tier.intervals.as_slice());
     match format {
         Format::TextGrid => textgrid::write(timing, false),
         Format::TextGridShort => textgrid::write(timing, true),
-        Format::Srt => cues::write_srt(subtitles()),
-        Format::WebVtt => cues::write_vtt(subtitles()),
+        Format::Srt => cues::write_srt(one()),
+        Format::WebVtt => cues::write_vtt(one()),
         Format::Csv => csv::write(timing),
         Format::Json => json::write(timing),
+        Format::Audacity => audacity::write(one()),
+        Format::Ctm => ctm::write(one()),
+        Format::Lab => lab::write(one()),
+        Format::RhubarbTsv => rhubarb::write_tsv(timing),
+        Format::RhubarbJson => rhubarb::write_json(timing),
+        Format::RhubarbXml => rhubarb::write_xml(timing),
+        Format::Moho => moho::write(timing),
     }
 }
 
 /// Writes one tier alone.
 ///
 /// # Errors
-/// When there is none of that name, with the names there are.
+/// When there is none of that name, with the names there are; when the format cannot hold it.
 pub fn write_tier(timing: &Timing, format: Format, name: &str) -> Result<String> {
     let Some(tier) = timing.tier(name) else {
         let names: Vec<&str> = timing.tiers.iter().map(|t: &Tier| t.name.as_str()).collect();
@@ -159,5 +281,12 @@ pub fn write_tier(timing: &Timing, format: Format, name: &str) -> Result<String>
             Fault::new(format!("there is no tier `{name}`")).help(format!("the tiers are {}", names.join(", ")))
         );
     };
-    Ok(write(&Timing { tiers: vec![tier.clone()], ..*timing }, format))
+    let mut tier = tier.clone();
+    if format.holds_shapes() {
+        shapes::check(&tier)?;
+        shapes::TIER.clone_into(&mut tier.name);
+    }
+    let alone = Timing { tiers: vec![tier], ..*timing };
+    writable(&alone, format)?;
+    Ok(write(&alone, format))
 }

@@ -3,8 +3,9 @@
 use super::{Interval, MAX_SECONDS, Tier};
 use crate::disk::{self, Fault, Result};
 
-/// Times closer than this are the same: what rounding in the writing program can do. Seconds.
-const SAME: f64 = 1e-6;
+/// Times closer than this are the same: what rounding in the writing program can do, which may count in milliseconds.
+/// Seconds.
+const SAME: f64 = 1e-3;
 
 /// A tier in the making.
 pub(super) struct Layer {
@@ -25,9 +26,8 @@ impl Layer {
     /// Without a line, which the caller knows: times that are not numbers, negative, absurd, backwards, or before the
     /// end of the interval before.
     pub fn lay(&mut self, start: f64, end: f64, label: &str) -> Result<()> {
-        checked(start)?;
-        checked(end)?;
-        if start > end {
+        let (start, end) = (checked(start)?, checked(end)?);
+        if start > end + SAME {
             return Err(Fault::new(format!("the interval starts at {start} and ends before that, at {end}"))
                 .help("its start must not lie behind its end"));
         }
@@ -61,6 +61,8 @@ impl Layer {
 /// # Errors
 /// Without a line.
 pub(super) fn checked(time: f64) -> Result<f64> {
+    // A nothing below 0 is a 0 that was calculated.
+    let time = if (-SAME..0.0).contains(&time) { 0.0 } else { time };
     if (0.0..=MAX_SECONDS).contains(&time) {
         return Ok(time);
     }

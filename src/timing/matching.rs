@@ -1,6 +1,6 @@
 //! Whether the labels of a tier are the syllables of a script, and where they part if not.
 
-use super::{Interval, Tier};
+use super::{Interval, Tier, Timing};
 use crate::disk::{Fault, Result};
 
 /// How many neighbours are shown on each side of the place where script and tier part.
@@ -72,6 +72,38 @@ pub fn common<A, B>(first: &[A], second: &[B], fits: impl Fn(&A, &B) -> bool) ->
     }
     pairs.extend((0..end).rev().map(|k| (first.len() - 1 - k, second.len() - 1 - k)));
     pairs
+}
+
+/// What people call a tier of syllables or of characters, the likelier first.
+const SYLLABLES: [&str; 12] = [
+    "syllables",
+    "syllable",
+    "syl",
+    "characters",
+    "character",
+    "hanzi",
+    "pinyin",
+    "zhuyin",
+    "bopomofo",
+    "words",
+    "word",
+    "text",
+];
+
+/// The tier that holds the syllables of a script: the one called `syllables`; else the one whose labels fit one for
+/// one, by the likelihood of its name where several do; else, where nothing fits, the only one there is or the one with
+/// the likeliest name, so that [`match_labels`] can say where they part. Nothing where there is nothing like it.
+#[must_use]
+pub fn fitting_tier<'a, T>(timing: &'a Timing, expected: &[T], fits: impl Fn(&T, &str) -> bool) -> Option<&'a Tier> {
+    let rank = |tier: &Tier| {
+        let name = tier.name.trim().to_lowercase();
+        SYLLABLES.iter().position(|known| *known == name).unwrap_or(SYLLABLES.len())
+    };
+    let mut likely: Vec<&Tier> = timing.tiers.iter().filter(|t| !t.is_of_points() && t.name != "shapes").collect();
+    likely.sort_by_key(|tier| rank(tier));
+    let fitting = || likely.iter().copied().find(|tier| first_parting(expected, tier, &fits).is_none());
+    let named = || likely.first().copied().filter(|tier| rank(tier) < SYLLABLES.len());
+    timing.tier("syllables").or_else(fitting).or_else(|| timing.syllables()).or_else(named)
 }
 
 /// Makes sure that the labels of a tier are what is expected, one for one.
@@ -154,6 +186,22 @@ mod tests {
     #[test]
     fn a_tier_that_says_the_script_matches_and_its_marks_of_silence_do_not_count() {
         assert_eq!(fault("ni hao ma", "# ni sp hao <sil> ma [SIL]"), None);
+    }
+
+    #[test]
+    fn the_tier_that_fits_is_found_under_any_name() {
+        let named = |name: &str, labels: &str| Tier { name: name.into(), ..tier(labels) };
+        let found = |tiers: &[Tier]| {
+            let timing = Timing { tiers: tiers.to_vec(), ..Timing::default() };
+            fitting_tier(&timing, &["ni", "hao"], |e, l| *e == l).map(|tier| tier.name.clone())
+        };
+        let (fits, other) = (|name| named(name, "ni sil hao"), |name| named(name, "x"));
+        assert_eq!(found(&[other("syllables"), fits("mine")]).as_deref(), Some("syllables"));
+        assert_eq!(found(&[other("phones"), fits("mine"), other("words")]).as_deref(), Some("mine"));
+        assert_eq!(found(&[fits("mine"), fits("Pinyin")]).as_deref(), Some("Pinyin"));
+        assert_eq!(found(&[other("phones"), other("Words")]).as_deref(), Some("Words"));
+        assert_eq!(found(&[other("anything"), named("shapes", "m")]).as_deref(), Some("anything"));
+        assert_eq!(found(&[other("one"), other("two")]), None);
     }
 
     #[test]

@@ -64,6 +64,12 @@ impl Tier {
         self.intervals.last().map_or(0.0, |i| i.end)
     }
 
+    /// Whether its labels are all of points in time: intervals that end where they start.
+    #[must_use]
+    pub fn is_of_points(&self) -> bool {
+        !self.intervals.is_empty() && self.intervals.iter().all(|i| i.start == i.end)
+    }
+
     /// The intervals that say something: without those that only mark silence, such as `sil` and `#`.
     pub fn spoken(&self) -> impl Iterator<Item = &Interval> {
         self.intervals.iter().filter(|i| !is_silence_mark(&i.label))
@@ -101,10 +107,21 @@ impl Timing {
         self.tiers.iter_mut().find(|t| t.name == name)
     }
 
-    /// The syllables: the tier called so, or the only one there is, whatever its name.
+    /// The syllables: the tier called so, or the only one there is, whatever its name. One of points beside it does not
+    /// count, and one of mouth shapes never does.
     #[must_use]
     pub fn syllables(&self) -> Option<&Tier> {
-        self.tier("syllables").or(if let [only] = self.tiers.as_slice() { Some(only) } else { None })
+        let only = |points: bool| {
+            let mut others = self.tiers.iter().filter(|t| t.name != "shapes" && (points || !t.is_of_points()));
+            others.next().filter(|_| others.next().is_none())
+        };
+        self.tier("syllables").or_else(|| only(false)).or_else(|| only(true))
+    }
+
+    /// The mouth shapes: the tier `shapes`.
+    #[must_use]
+    pub fn shapes(&self) -> Option<&Tier> {
+        self.tier("shapes")
     }
 
     /// What subtitles are made of: the words, else the syllables, else the first tier; one with nothing in it only
@@ -127,6 +144,15 @@ impl Timing {
         let rank = |name: &str| KNOWN.iter().position(|k| *k == name).unwrap_or(KNOWN.len());
         let at = self.tiers.iter().position(|t| rank(&t.name) > rank(&tier.name)).unwrap_or(self.tiers.len());
         self.tiers.insert(at, tier);
+    }
+
+    /// Makes every time `factor` times as long, a number above 0: for times that were counted at another rate.
+    pub fn stretch(&mut self, factor: f64) {
+        self.duration *= factor;
+        for interval in self.tiers.iter_mut().flat_map(|tier| &mut tier.intervals) {
+            interval.start *= factor;
+            interval.end *= factor;
+        }
     }
 
     /// Adds a tier that was read, under its name, or under `name 2`, `name 3`… where that is taken.

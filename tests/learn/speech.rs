@@ -5,6 +5,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs, reason = "a tool of the authors")]
 
+#[path = "speech/calibrate.rs"]
+mod calibrate;
 #[path = "faces/chance.rs"]
 mod chance;
 #[path = "speech/corpus.rs"]
@@ -18,6 +20,7 @@ mod mixture;
 
 use std::path::{Path, PathBuf};
 
+use lianpu::speech::align::confidence::SIGNS;
 use lianpu::speech::align::features::DIMS;
 use lianpu::speech::align::model::{Model, Terms};
 use lianpu::speech::align::units::{ANY, SILENCE, UNITS, Unit};
@@ -37,6 +40,12 @@ fn main() {
     if arguments[0] == "--measure" {
         let model = Model::read(&std::fs::read(&out).unwrap()).unwrap();
         measure::all(&model, Path::new(&arguments[1]), &arguments[2..]);
+        return;
+    }
+    if arguments[0] == "--calibrate" {
+        let mut model = Model::read(&std::fs::read(&out).unwrap()).unwrap();
+        model.confidence = calibrate::calibrate(&model, &arguments[1..]);
+        std::fs::write(out, model.write()).unwrap();
         return;
     }
     let corpus = PathBuf::from(&arguments[0]);
@@ -100,7 +109,7 @@ fn learn(lessons: &[Lesson]) -> Model {
                 mixture::mixture(frames, most, &floor)
             })
             .collect();
-        model = Some(Model { mixtures });
+        model = Some(Model { mixtures, confidence: [0.0; SIGNS] });
         println!("round {round}: {} frames", all.len());
     }
     model.unwrap()

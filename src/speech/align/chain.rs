@@ -47,6 +47,26 @@ impl Chain {
         chain
     }
 
+    /// The same syllables the other way round.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let mut chain = Self::default();
+        for (number, links) in self.syllables.iter().rev().enumerate() {
+            let from = chain.links.len();
+            chain.links.extend(self.links[links.clone()].iter().map(|l| Link { syllable: number, ..*l }));
+            chain.syllables.push(from..chain.links.len());
+        }
+        chain.phones = self.phones.iter().rev().cloned().collect();
+        chain
+    }
+
+    /// Whether a syllable sounds otherwise than the one at its place in another chain.
+    #[must_use]
+    pub fn differs(&self, other: &Self, syllable: usize) -> bool {
+        let units = |c: &Self| c.links[c.syllables[syllable].clone()].iter().map(|l| l.unit).collect::<Vec<_>>();
+        units(self) != units(other)
+    }
+
     /// How long a stretch of it usually lasts, in seconds, at the usual rate.
     #[must_use]
     pub fn usual(&self, links: Range<usize>) -> f64 {

@@ -162,8 +162,7 @@ fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step
             lasts.last().map_or((gap + offset + 1, cost), |last| (gap + offset - last, cost + entered))
         };
         let pause_cost = if lasts.is_empty() || syllable == section.last { 0.0 } else { -costs.pause };
-        let skipped =
-            |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -costs.skip)).filter(|_| offset < 3);
+        let skipped = |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -costs.skip)).filter(|_| offset < 3);
         let mut pause = vec![(0, 0.0), from_last(0, pause_cost, &lasts)];
         pause.extend(skipped(0, &gaps));
         steps.push(Step { place: Place::Pause, ways: pause });

@@ -26,8 +26,9 @@ const BINS: usize = super::fourier::SIZE / 2 + 1;
 /// The mel bands lie between these, in Hz.
 const LOWEST: f64 = 60.0;
 const HIGHEST: f64 = 7800.0;
-/// Below the energy of loud frames' bands by some 75 dB: digital silence must not be minus infinity.
-const FLOOR: f32 = 1e-9;
+/// Some 55 dB below the energy of loud frames' bands: what lies lower is the same silence to the ear, and digital
+/// silence would be another for every synthesiser.
+const FLOOR: f32 = 1e-5;
 /// Frames to either side that a slope is taken over.
 const REACH: usize = 4;
 /// Slopes are some three times smaller than what they are slopes of.

@@ -85,8 +85,9 @@ mod tests {
 
     #[test]
     fn the_powers_are_those_of_the_sum_of_the_definition() {
-        let signal =
-            |seed: u32| -> Vec<f32> { (0..400_u32).map(|i| ((i * i + seed * i) % 97) as f32 / 48.5 - 1.0).collect() };
+        let signal = |seed: u32| -> Vec<f32> {
+            (0..400_u32).map(|i| ((i * i + seed * i) % 97) as f32 / 48.5 - 1.0).collect()
+        };
         let (one, two) = (signal(3), signal(11));
         let mut fourier = Fourier::new();
         fourier.load(one.iter().copied().zip(two.iter().copied()));

@@ -5,8 +5,7 @@ use super::units::{UNITS, Unit};
 
 /// How much the times count against the sound: frames that follow each other say much the same, times say something
 /// new.
-static WEIGHT: std::sync::LazyLock<f32> =
-    std::sync::LazyLock::new(|| std::env::var("WEIGHT").map_or(3.0, |s| s.parse().unwrap()));
+static WEIGHT: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("WEIGHT").map_or(3.0, |s| s.parse().unwrap()));
 
 /// The last syllable before a pause is drawn out by so much.
 const DRAWN: f32 = 1.35;
@@ -38,5 +37,11 @@ impl Lasting {
             *WEIGHT * (-0.5 * z * z - kind.spread.ln() - 0.9)
         };
         Self { least, values: (least..=most).map(value).collect() }
+    }
+
+    /// For so many frames; far less than anything where they are too few or too many.
+    #[must_use]
+    pub fn at(&self, frames: usize) -> f32 {
+        frames.checked_sub(self.least).and_then(|i| self.values.get(i)).copied().unwrap_or(-60.0)
     }
 }

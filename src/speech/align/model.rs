@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use super::confidence::SIGNS;
 use super::features::{DIMS, Features};
 use super::units::{UNITS, Unit};
 
@@ -28,6 +29,8 @@ pub struct Gaussian {
 pub struct Model {
     /// The Gaussians of each of [`UNITS`].
     pub mixtures: Vec<Vec<Gaussian>>,
+    /// How the signs of a syllable tell how sure its times are.
+    pub confidence: [f32; SIGNS],
 }
 
 /// The terms of a Gaussian, worked out: its logarithm is constant + Σ x (linear + square · x).
@@ -101,7 +104,7 @@ impl Model {
     pub fn learned() -> &'static Self {
         static MODEL: LazyLock<Model> = LazyLock::new(|| {
             // The file is part of the program: a fault in it is ours and the tests'.
-            Model::read(LEARNED).unwrap_or_else(|| Model { mixtures: vec![Vec::new(); UNITS.len()] })
+            Model::read(LEARNED).unwrap_or_else(|| Model { mixtures: vec![Vec::new(); UNITS.len()], confidence: [0.0; SIGNS] })
         });
         &MODEL
     }
@@ -128,6 +131,10 @@ impl Model {
             let mut number = || Some(f32::from_le_bytes(take(4)?.try_into().ok()?));
             *scale = (number()?, number()?, number()?, number()?);
         }
+        let mut confidence = [0.0; SIGNS];
+        for weight in &mut confidence {
+            *weight = f32::from_le_bytes(take(4)?.try_into().ok()?);
+        }
         let mut mixtures = Vec::new();
         for _ in UNITS {
             let count = take(1)?[0];
@@ -145,7 +152,7 @@ impl Model {
             }
             mixtures.push(mixture);
         }
-        take(1).is_none().then_some(Self { mixtures })
+        take(1).is_none().then_some(Self { mixtures, confidence })
     }
 
     /// In bytes: a mean in two, a variance and a weight in one, each dimension with a scale of its own.
@@ -158,11 +165,15 @@ impl Model {
             let (low, high) = all().map(of).fold((f32::MAX, f32::MIN), |(l, h), x| (l.min(x), h.max(x)));
             (low, (high - low).max(1e-6))
         };
-        let scales: Vec<_> = (0..DIMS).map(|d| (range(&|g| g.mean[d]), range(&|g| g.variance[d].ln()))).collect();
+        let scales: Vec<_> =
+            (0..DIMS).map(|d| (range(&|g| g.mean[d]), range(&|g| g.variance[d].ln()))).collect();
         for (m, v) in &scales {
             for number in [m.0, m.1, v.0, v.1] {
                 out.extend(number.to_le_bytes());
             }
+        }
+        for weight in self.confidence {
+            out.extend(weight.to_le_bytes());
         }
         for mixture in &self.mixtures {
             out.push(mixture.len() as u8);
@@ -194,9 +205,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let model = Model {
-            mixtures: (0..UNITS.len()).map(|u| (0..u % 3).map(|k| gaussian((u + k) as f32)).collect()).collect(),
-        };
+        let model = Model { mixtures: (0..UNITS.len()).map(|u| (0..u % 3).map(|k| gaussian((u + k) as f32)).collect()).collect(), confidence: [0.5; SIGNS] };
         let bytes = model.write();
         let read = Model::read(&bytes).unwrap();
         for (a, b) in model.mixtures.iter().flatten().zip(read.mixtures.iter().flatten()) {
@@ -226,8 +235,7 @@ mod tests {
             levels: vec![0.0; 37],
             ..Features::default()
         };
-        let terms: Vec<Vec<Terms>> =
-            vec![vec![Terms::of(&gaussian(1.0)), Terms::of(&gaussian(2.0))], vec![Terms::of(&gaussian(5.0))]];
+        let terms: Vec<Vec<Terms>> = vec![vec![Terms::of(&gaussian(1.0)), Terms::of(&gaussian(2.0))], vec![Terms::of(&gaussian(5.0))]];
         let judged = judge(&terms, &heard);
         for (row, terms) in judged.iter().zip(&terms) {
             assert_eq!(row.len(), 37);

@@ -40,6 +40,8 @@ pub struct Section {
     pub first: usize,
     /// One beyond the last syllable.
     pub last: usize,
+    /// Whether it is full of them from its first frame to its last: somebody has set it.
+    pub full: bool,
 }
 
 /// What lies before a syllable, or after the last: something beside the script, frames.
@@ -89,6 +91,15 @@ impl Reached {
     }
 }
 
+/// What may lie in a gap.
+#[derive(Debug, Clone, Copy)]
+struct Crossover {
+    /// Whether a pause costs nothing: before the first syllable and after the last.
+    free: bool,
+    /// Whether there is no gap.
+    full: bool,
+}
+
 /// How a frame was reached across a gap.
 #[derive(Debug, Clone, Copy, Default)]
 struct Crossing {
@@ -107,7 +118,20 @@ impl Search<'_> {
         }
     }
 
+    /// The scores of a link of the script.
+    #[must_use]
+    pub fn of_link(&self, link: usize) -> &[f32] {
+        self.row(self.chain.links[link].unit)
+    }
+
+    /// How long a link of the script may last.
+    #[must_use]
+    pub fn lasting(&self, link: usize) -> Lasting {
+        Lasting::of(self.chain.links[link].unit, self.rate, link + 1 == self.chain.links.len())
+    }
+
     /// The best way through a section: `near` is a way it lies within `width` frames of; without it one is looked for.
+    #[must_use]
     pub fn way(&self, section: &Section, near: Option<&[(usize, usize)]>, width: usize) -> Way {
         let rough = match near {
             Some(links) => Some(links.to_vec()),
@@ -160,20 +184,19 @@ impl Search<'_> {
         for syllable in section.first..section.last {
             let links = self.chain.syllables[syllable].clone();
             let begin = band(rough[links.start - first_link].0, Band { low: reached.band.low, ..start });
-            let (entered, how) = self.cross(&reached, begin, syllable == section.first, false);
+            let how_to = Crossover { free: syllable == section.first, full: section.full };
+            let (entered, how) = self.cross(&reached, begin, how_to);
             crossings.push((begin, how));
             let mut now = Reached { band: entered.band, scores: entered.scores.clone() };
             for link in links.clone() {
                 let end = band(rough[link - first_link].1, now.band);
-                let last = link + 1 == links.end && syllable + 1 == self.chain.syllables.len();
-                let lasting = Lasting::of(self.chain.links[link].unit, self.rate, last);
-                let (next, how) = extend(&now, end, self.row(self.chain.links[link].unit), &lasting);
+                let (next, how) = extend(&now, end, self.of_link(link), &self.lasting(link));
                 lengths.push((end, how));
                 now = next;
             }
             // A syllable that is not heard.
             let mut skipped = vec![false; now.scores.len()];
-            for (i, (score, skipped)) in now.scores.iter_mut().zip(&mut skipped).enumerate() {
+            for (i, (score, skipped)) in now.scores.iter_mut().zip(&mut skipped).enumerate().filter(|_| !section.full) {
                 let without = entered.at(now.band.low + i) - f64::from(self.costs.skip);
                 if without > *score {
                     (*score, *skipped) = (without, true);
@@ -183,7 +206,7 @@ impl Search<'_> {
             reached = now;
         }
         let end = Band { low: section.to, high: section.to };
-        let (finished, how) = self.cross(&reached, end, section.first == section.last, true);
+        let (finished, how) = self.cross(&reached, end, Crossover { free: true, full: section.full });
         crossings.push((end, how));
         let mut way = Way { score: finished.at(section.to), ..Way::default() };
         if way.score == NEVER {
@@ -191,7 +214,9 @@ impl Search<'_> {
         }
         // Back from the end.
         let mut touched = false;
-        let edge = |t: usize, b: Band| (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to);
+        let edge = |t: usize, b: Band| {
+            (t == b.low && b.low > section.from) || (t == b.high && b.high < section.to)
+        };
         let mut t = section.to;
         let mut link = lengths.len();
         for number in (0..=section.last - section.first).rev() {
@@ -224,10 +249,15 @@ impl Search<'_> {
 
     /// From the end of a syllable to the beginning of the next: straight on, over a pause, over something beside the
     /// script, or over both.
-    fn cross(&self, before: &Reached, to: Band, first: bool, last: bool) -> (Reached, Vec<Crossing>) {
+    fn cross(&self, before: &Reached, to: Band, how: Crossover) -> (Reached, Vec<Crossing>) {
+        if how.full {
+            let here = |t: usize| Crossing { from: t as u32, beside: None };
+            let scores = (to.low..=to.high).map(|t| before.at(t)).collect();
+            return (Reached { band: to, scores }, (to.low..=to.high).map(here).collect());
+        }
         let silence = self.row(SILENCE);
         let low = before.band.low;
-        let (pause, cost) = if first || last { (1, 0.0) } else { (PAUSE, f64::from(self.costs.pause)) };
+        let (pause, cost) = if how.free { (1, 0.0) } else { (PAUSE, f64::from(self.costs.pause)) };
         let mut out = Vec::with_capacity(to.high + 1 - to.low);
         let mut how = Vec::with_capacity(to.high + 1 - to.low);
         // Sums of the scores of silence up to each frame, and the best beginnings so far.

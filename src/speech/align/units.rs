@@ -236,8 +236,7 @@ pub fn is_closure(unit: Unit) -> bool {
 #[must_use]
 pub fn is_vowel(unit: Unit) -> bool {
     let name = UNITS[usize::from(unit)].name;
-    matches!(name, "A" | "O" | "E" | "EH" | "I" | "U" | "V" | "IH" | "ER")
-        || name.starts_with(['a', 'e', 'i', 'o', 'u'])
+    matches!(name, "A" | "O" | "E" | "EH" | "I" | "U" | "V" | "IH" | "ER") || name.starts_with(['a', 'e', 'i', 'o', 'u'])
 }
 
 #[cfg(test)]
@@ -247,8 +246,7 @@ mod tests {
     #[test]
     fn every_unit_is_used_by_some_phone_and_none_is_called_twice() {
         let mandarin = "b p m f d t n l g k h j q x zh ch sh r z c s a o e ê i u ü ih er ng";
-        let english =
-            "AA AE AH AO AW AY B CH D DH EH ER EY F G HH IH IY JH K L M N NG OW OY P R S SH T TH UH UW V W Y Z ZH";
+        let english = "AA AE AH AO AW AY B CH D DH EH ER EY F G HH IH IY JH K L M N NG OW OY P R S SH T TH UH UW V W Y Z ZH";
         let mut used = vec![SILENCE, ANY];
         for phone in mandarin.split(' ').chain(english.split(' ')) {
             for phones in [vec![phone, "a"], vec!["a", phone], vec![phone]] {

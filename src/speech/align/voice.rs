@@ -99,6 +99,12 @@ impl Heard {
         }
     }
 
+    /// How many frames there were, each counted once.
+    #[must_use]
+    pub fn frames(&self) -> f32 {
+        self.units[usize::from(ANY)].iter().map(|h| h.0).sum()
+    }
+
     /// Together with what was heard elsewhere.
     pub fn and(&mut self, other: &Self, times: f32) {
         for (mine, theirs) in self.units.iter_mut().flatten().zip(other.units.iter().flatten()) {
@@ -123,7 +129,7 @@ impl Heard {
             };
             mixture.iter().zip(heard).map(moved).collect()
         });
-        Model { mixtures: mixtures.collect() }
+        Model { mixtures: mixtures.collect(), ..*model }
     }
 }
 
@@ -142,4 +148,20 @@ pub fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<
         }
     }
     (out, rows)
+}
+
+/// How much better a model fits what was found than another, in logarithms a frame.
+#[must_use]
+pub fn gain(before: &Model, after: &Model, heard: &Features, labels: &[Unit]) -> f32 {
+    let terms = |m: &Model| -> Vec<Vec<Terms>> { m.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect() };
+    let (before, after) = (terms(before), terms(after));
+    let (mut sum, mut frames) = (0.0_f64, 0_usize);
+    // Every third frame says as much as all.
+    for (n, label) in labels.iter().enumerate().step_by(3).filter(|l| *l.1 != SILENCE) {
+        let frame = heard.frame(n);
+        let fit = |t: &[Vec<Terms>]| t[usize::from(*label)].iter().map(|t| t.at(frame)).fold(f32::MIN, f32::max);
+        sum += f64::from(fit(&after) - fit(&before));
+        frames += 1;
+    }
+    (sum / frames.max(1) as f64) as f32
 }

@@ -1,9 +1,12 @@
-//! Praat's TextGrid, long and short.
+//! Praat's TextGrid, long, short and chronological.
 //!
 //! Both forms are the same sequence of values; the long one has words between them that say what each is. Praat reads
 //! every value that stands alone and skips the words, and so do we, but where a word contradicts the value that is due
-//! we say so instead of misreading the rest. Tiers of points have no intervals and are passed over.
+//! we say so instead of misreading the rest. The chronological form has the labels of all tiers in the order of time,
+//! each with the number of its tier. Points are intervals that end where they start; a tier of nothing but points is
+//! written as one, and one without any is left out.
 
+mod chronological;
 mod read;
 mod tokens;
 mod write;

@@ -3,7 +3,8 @@
 
 use super::super::Timing;
 use super::super::layer::{Layer, checked};
-use super::tokens::{Kind, Token, tokens};
+use super::chronological;
+use super::tokens::{Kind, Token, is_chronological, tokens};
 use crate::disk::{Fault, Result};
 
 /// The words that say which value follows, in the long form.
@@ -15,6 +16,10 @@ const KEYS: [&str; 9] = ["xmin", "xmax", "size", "class", "name", "text", "numbe
 /// With the line and what was found there.
 pub(in crate::timing) fn parse(text: &str) -> Result<Timing> {
     let mut reader = Reader { tokens: tokens(text)?, at: 0, short: false, last_line: text.lines().count().max(1) };
+    if is_chronological(text) {
+        reader.short = true;
+        return chronological::parse(&mut reader);
+    }
     reader.header()?;
     let end = reader.span("the file")?;
     let mut timing = Timing { duration: end, ..Timing::default() };
@@ -24,18 +29,21 @@ pub(in crate::timing) fn parse(text: &str) -> Result<Timing> {
         Kind::Flag(flag) if flag == "<absent>" => return Ok(timing),
         found => return Err(unexpected(&found, "`<exists>`", line)),
     }
-    let (said, said_line) = reader.number(&["size"], "the number of tiers")?;
+    let said = reader.count("the number of tiers")?;
     let mut there = 0_usize;
     while reader.next_value().is_some() {
         reader.tier(&mut timing)?;
         there += 1;
     }
     reader.nothing_left()?;
-    enough(there, said, "tiers", "the file", said_line)?;
+    enough(there, said, "tiers", "the file")?;
     Ok(timing)
 }
 
-struct Reader {
+/// A tier whose last interval ends this near to its own end, in seconds, has all its intervals.
+const WHOLE: f64 = 1e-3;
+
+pub(super) struct Reader {
     tokens: Vec<Token>,
     at: usize,
     /// In the short form there are no words, so any word is a fault.
@@ -56,47 +64,67 @@ impl Reader {
         Ok(())
     }
 
-    /// One tier; those of points are read over.
+    /// What kind of tier follows: whether it is one of points.
+    pub(super) fn class(&mut self) -> Result<bool> {
+        let (class, line) = self.text(&["class"], "a tier's class")?;
+        match class.as_str() {
+            "IntervalTier" => Ok(false),
+            "TextTier" => Ok(true),
+            _ => Err(Fault::new(format!("found `{class}` where a tier's class is expected"))
+                .line(line)
+                .help("`IntervalTier` and `TextTier` are the two there are")),
+        }
+    }
+
     fn tier(&mut self, timing: &mut Timing) -> Result<()> {
-        let (class, class_line) = self.text(&["class"], "a tier's class")?;
-        let points = match class.as_str() {
-            "IntervalTier" => false,
-            "TextTier" => true,
-            _ => {
-                return Err(Fault::new(format!("found `{class}` where a tier's class is expected"))
-                    .line(class_line)
-                    .help("`IntervalTier` and `TextTier` are the two there are"));
-            }
-        };
+        let points = self.class()?;
         let (name, _) = self.text(&["name"], "the tier's name")?;
         let end = self.span(&format!("tier `{name}`"))?;
-        let (said, said_line) = self.number(&["size"], &format!("the number of intervals of tier `{name}`"))?;
+        let said = self.count(&format!("the number of intervals of tier `{name}`"))?;
         let mut layer = Layer::new(&name);
         let mut there = 0_usize;
         while let Some(Kind::Number(_)) = self.next_value() {
             there += 1;
-            if points {
-                self.number(&["number", "time"], &format!("the time of point {there} of tier `{name}`"))?;
-                self.text(&["mark", "text"], &format!("the mark of point {there} of tier `{name}`, in quotes"))?;
-                continue;
-            }
             let of = format!("of interval {there} of tier `{name}`");
-            let (start, line) = self.number(&["xmin"], &format!("the start {of}"))?;
-            let (end, _) = self.number(&["xmax"], &format!("the end {of}"))?;
+            let (start, end, line) = if points {
+                let (time, line) =
+                    self.number(&["number", "time"], &format!("the time of point {there} of tier `{name}`"))?;
+                (time, time, line)
+            } else {
+                let (start, line) = self.number(&["xmin"], &format!("the start {of}"))?;
+                (start, self.number(&["xmax"], &format!("the end {of}"))?.0, line)
+            };
             let (label, _) = self.text(&["text", "mark"], &format!("the label {of}, in quotes"))?;
             layer.lay(start, end, &label).map_err(|fault| fault.line(line))?;
         }
-        enough(there, said, if points { "points" } else { "intervals" }, &format!("tier `{name}`"), said_line)?;
         let (tier, until) = layer.done();
+        // What reaches to its end is whole, whatever it says of itself.
+        if points || until < end - WHOLE {
+            enough(there, said, if points { "points" } else { "intervals" }, &format!("tier `{name}`"))?;
+        }
         timing.duration = timing.duration.max(end);
-        if !points {
+        if !(points && tier.intervals.is_empty()) {
             timing.add_read(tier, until)?;
         }
         Ok(())
     }
 
+    /// How many there are to be, and the line that says it; nothing where the long form leaves it out.
+    fn count(&mut self, what: &str) -> Result<Option<(f64, usize)>> {
+        let announced = self.tokens[self.at..].windows(2).map_while(|pair| match &pair[0].kind {
+            kind if kind.is_value() => None,
+            Kind::Word(word) if pair[1].kind == Kind::Assign => Some(Some(word.as_str())),
+            _ => Some(None),
+        });
+        let next = announced.flatten().next();
+        if next.is_some_and(|word| word != "size" && KEYS.contains(&word)) {
+            return Ok(None);
+        }
+        self.number(&["size"], what).map(Some)
+    }
+
     /// `xmin` and `xmax` of the file or a tier: its end.
-    fn span(&mut self, of: &str) -> Result<f64> {
+    pub(super) fn span(&mut self, of: &str) -> Result<f64> {
         let (start, line) = self.number(&["xmin"], &format!("the start of {of}"))?;
         let (end, end_line) = self.number(&["xmax"], &format!("the end of {of}"))?;
         checked(start).map_err(|fault| fault.line(line))?;
@@ -110,7 +138,7 @@ impl Reader {
     }
 
     /// The value that comes next, without taking it.
-    fn next_value(&self) -> Option<&Kind> {
+    pub(super) fn next_value(&self) -> Option<&Kind> {
         self.tokens[self.at..].iter().map(|t| &t.kind).find(|kind| kind.is_value())
     }
 
@@ -136,14 +164,14 @@ impl Reader {
             .help("was it cut off? take it from its source again"))
     }
 
-    fn number(&mut self, keys: &[&str], what: &str) -> Result<(f64, usize)> {
+    pub(super) fn number(&mut self, keys: &[&str], what: &str) -> Result<(f64, usize)> {
         match self.value(keys, what)? {
             (Kind::Number(number), line) => Ok((number, line)),
             (found, line) => Err(unexpected(&found, what, line)),
         }
     }
 
-    fn text(&mut self, keys: &[&str], what: &str) -> Result<(String, usize)> {
+    pub(super) fn text(&mut self, keys: &[&str], what: &str) -> Result<(String, usize)> {
         match self.value(keys, what)? {
             (Kind::Text(text), line) => Ok((text, line)),
             (found, line) => Err(unexpected(&found, what, line)),
@@ -151,7 +179,7 @@ impl Reader {
     }
 
     /// After the last value only words of the long form may stand, and none that announces another.
-    fn nothing_left(&self) -> Result<()> {
+    pub(super) fn nothing_left(&self) -> Result<()> {
         let left = &self.tokens[self.at..];
         match left.iter().find(|t| self.short || t.kind == Kind::Assign) {
             Some(token) => Err(unexpected(&token.kind, "the end of the file or another tier", token.line)),
@@ -167,11 +195,13 @@ fn unexpected(found: &Kind, what: &str, line: usize) -> Fault {
 }
 
 /// Notices that there are fewer than the file says. More are fine: somebody added one and let the count be.
-fn enough(there: usize, said: f64, what: &str, of: &str, line: usize) -> Result<()> {
-    if there as f64 >= said {
-        return Ok(());
+fn enough(there: usize, said: Option<(f64, usize)>, what: &str, of: &str) -> Result<()> {
+    match said {
+        Some((said, line)) if (there as f64) < said => {
+            Err(Fault::new(format!("{of} says that it has {said} {what}, and {there} are there"))
+                .line(line)
+                .help(format!("was the file cut off? if nothing is missing, write {there} here")))
+        }
+        _ => Ok(()),
     }
-    Err(Fault::new(format!("{of} says that it has {said} {what}, and {there} are there"))
-        .line(line)
-        .help(format!("was the file cut off? if nothing is missing, write {there} here")))
 }

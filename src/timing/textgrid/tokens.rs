@@ -51,7 +51,13 @@ fn shortened(text: &str) -> String {
 
 /// Whether a text begins like a file of Praat's.
 pub(in crate::timing) fn is_header(text: &str) -> bool {
-    text.trim_start().lines().next().is_some_and(|first| first.contains("ooTextFile"))
+    let first = text.trim_start().lines().next().unwrap_or_default();
+    first.contains("ooTextFile") || is_chronological(text)
+}
+
+/// Whether a text is of the chronological form.
+pub(super) fn is_chronological(text: &str) -> bool {
+    text.trim_start().lines().next().is_some_and(|first| first.contains("Praat chronological TextGrid"))
 }
 
 /// Whether the first thing after the two lines of the header is a number: the short form.

@@ -14,12 +14,22 @@ pub(in crate::timing) fn write(timing: &Timing, short: bool) -> String {
     page.line(0, "size = ", &timing.tiers.len().to_string());
     page.title(0, "item []:");
     for (t, tier) in timing.tiers.iter().enumerate() {
-        let tiles = tiled(tier, end);
+        let points = tier.is_of_points();
         page.title(1, &format!("item [{}]:", t + 1));
-        page.line(2, "class = ", "\"IntervalTier\"");
+        page.line(2, "class = ", if points { "\"TextTier\"" } else { "\"IntervalTier\"" });
         page.line(2, "name = ", &quoted(&tier.name));
         page.line(2, "xmin = ", "0");
         page.line(2, "xmax = ", &seconds(end));
+        if points {
+            page.line(2, "points: size = ", &tier.intervals.len().to_string());
+            for (n, point) in tier.intervals.iter().enumerate() {
+                page.title(2, &format!("points [{}]:", n + 1));
+                page.line(3, "number = ", &seconds(point.start));
+                page.line(3, "mark = ", &quoted(&point.label));
+            }
+            continue;
+        }
+        let tiles = tiled(tier, end);
         page.line(2, "intervals: size = ", &tiles.len().to_string());
         for (n, (start, end, label)) in tiles.into_iter().enumerate() {
             page.title(2, &format!("intervals [{}]:", n + 1));

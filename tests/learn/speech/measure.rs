@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lianpu::script::{Syllable, System, syllables};
-use lianpu::speech::align::align_with;
 use lianpu::speech::align::model::Model;
+use lianpu::speech::align::works;
 use lianpu::speech::{Alignment, Sound, Take};
 
 use crate::chance::Chance;
@@ -25,6 +25,11 @@ impl Errors {
             self.0.push(off(f.0, before.unwrap_or(t.0).min(t.0), t.0));
             self.0.push(off(f.1, t.1, after.unwrap_or(t.1).max(t.1)));
         }
+    }
+
+    /// Whether both boundaries of each syllable are right within 50 ms.
+    pub fn right(&self) -> Vec<bool> {
+        self.0.chunks(2).map(|e| e.iter().all(|e| *e <= 0.05)).collect()
     }
 
     pub fn print(&self, name: &str) {
@@ -56,9 +61,19 @@ fn times(alignment: &Alignment) -> Vec<(f64, f64)> {
 }
 
 fn run(model: &Model, name: &str, sound: &Sound, script: &[Syllable]) -> Option<Alignment> {
-    match align_with(model, &Take { sound, script, pins: &[] }) {
-        Ok(a) => {
-            for note in &a.notes {
+    match works(model, &[Take { sound, script, pins: &[] }]).pop().unwrap() {
+        Ok(work) => {
+            let a = work.alignment(model);
+            if std::env::var("INFO").is_ok() {
+                println!(
+                    "{name}: snr {:.1} fit {:.3} sense {:.2} missing {}",
+                    work.heard.snr,
+                    work.fit,
+                    work.sense,
+                    a.syllables.iter().filter(|s| !s.heard).count()
+                );
+            }
+            for note in a.notes.iter().filter(|n| !matches!(n, lianpu::speech::Note::Noisy { .. })) {
                 println!("{name}: {note}");
             }
             Some(a)
@@ -78,6 +93,11 @@ pub fn all(model: &Model, data: &Path, which: &[String]) {
     if asked("real") {
         real(model, &data.join("real"));
     }
+    if which.iter().any(|w| w == "wrong") {
+        for set in ["mbrola", "real", "self"] {
+            wrong(model, &data.join(set));
+        }
+    }
     if asked("english") {
         english(model, &data.join("english"));
     }
@@ -86,7 +106,16 @@ pub fn all(model: &Model, data: &Path, which: &[String]) {
         synthetic(model, &data.join("espeak"), "espeak 20 dB", |n| n.contains("snr20"), None);
         synthetic(model, &data.join("espeak"), "espeak 10 dB", |n| !n.contains("snr"), Some(10.0));
     }
-    for folder in which.iter().filter(|w| w.contains('/')) {
+    for folder in which.iter().filter(|w| w.starts_with("tests:")) {
+        let folder = Path::new(&folder[6..]);
+        synthetic(model, folder, "tests clean", |n| !n.contains("snr"), None);
+        synthetic(model, folder, "tests 20 dB", |n| n.contains("snr20"), None);
+        synthetic(model, folder, "tests 10 dB", |n| n.contains("snr10"), None);
+    }
+    for folder in which.iter().filter(|w| w.starts_with("parted:")) {
+        parted(model, Path::new(&folder[7..]));
+    }
+    for folder in which.iter().filter(|w| w.starts_with('/')) {
         held(model, Path::new(folder));
     }
 }
@@ -94,17 +123,22 @@ pub fn all(model: &Model, data: &Path, which: &[String]) {
 /// A corpus of the same kind as what was learned from, clean and changed.
 fn held(model: &Model, folder: &Path) {
     let (mut clean, mut changed) = (Errors::default(), Errors::default());
+    let mut sure: [Vec<f64>; 2] = Default::default();
     for (number, told) in corpus::read(folder).iter().enumerate() {
         if let Some(a) = run(model, &told.name, &told.sound, &told.script) {
             clean.add(&told.times, &times(&a));
+            sure[0].extend(a.syllables.iter().map(|s| s.confidence));
         }
         let other = corpus::changed(told, &mut Chance(77_000 + number as u64), 60.0, 15.0);
         if let Some(a) = run(model, &told.name, &Sound::new(16_000, other.samples), &told.script) {
             let truth: Vec<_> = told.times.iter().map(|t| (t.0 * other.slower, t.1 * other.slower)).collect();
             changed.add(&truth, &times(&a));
+            sure[1].extend(a.syllables.iter().map(|s| s.confidence));
         }
     }
     let name = folder.file_name().unwrap().to_string_lossy();
+    table(&sure[0], &clean.right());
+    table(&sure[1], &changed.right());
     clean.print(&format!("{name} clean"));
     changed.print(&format!("{name} changed"));
 }
@@ -123,6 +157,7 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
         }
     }
     let (mut errors, mut lips) = (Errors::default(), Errors::default());
+    let mut sure: Vec<f64> = Vec::new();
     for (file, phones) in files {
         let mut truth: Vec<(String, f64, f64)> = Vec::new();
         let mut closed: Vec<f64> = Vec::new();
@@ -147,6 +182,7 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
         let script = script(&labels, System::Hanyu);
         let Some(a) = run(model, &file, &sound, &script) else { continue };
         errors.add(&truth.iter().map(|t| (t.1, t.2)).collect::<Vec<_>>(), &times(&a));
+        sure.extend(a.syllables.iter().map(|s| s.confidence));
         if std::env::var("SHOW").is_ok() {
             for (t, s) in truth.iter().zip(&a.syllables) {
                 let phones: Vec<String> = s.phones.iter().map(|p| format!("{} {:.3}", p.phone, p.start)).collect();
@@ -172,6 +208,7 @@ fn synthetic(model: &Model, folder: &Path, name: &str, which: impl Fn(&str) -> b
         lips.0.extend(found.iter().zip(&closed).map(|(a, b)| (a - b).abs()));
     }
     errors.print(name);
+    table(&sure, &errors.right());
     let near = lips.0.iter().filter(|e| **e <= 0.04).count();
     println!("{name:22} lips: {near} of {} within 40 ms", lips.0.len());
 }
@@ -279,4 +316,138 @@ fn words(text: &str) -> Vec<(String, f64, f64)> {
         }
     }
     out
+}
+
+/// Scripts that are not quite, or not at all, what is said.
+pub fn parted(model: &Model, folder: &Path) {
+    let all = corpus::read(folder);
+    let number = all.len();
+    let (mut quiet, mut doubted, mut noted) = ([0; 4], [0; 4], [0; 4]);
+    let mut errors = [(); 4].map(|()| Errors::default());
+    let mut fits: [Vec<f32>; 4] = Default::default();
+    let mut where_off = [0; 4];
+    for (n, told) in all.iter().enumerate() {
+        let mut chance = Chance(991 + n as u64);
+        let other = corpus::changed(told, &mut chance, 60.0, 15.0);
+        let sound = Sound::new(16_000, other.samples);
+        let times_of: Vec<_> = told.times.iter().map(|t| (t.0 * other.slower, t.1 * other.slower)).collect();
+        let foreign = &all[(n + 7) % number].script;
+        let count = told.script.len();
+        let at = chance.below(count);
+        for kind in 0..4 {
+            let mut script = told.script.clone();
+            let mut truth: Vec<Option<(f64, f64)>> = times_of.iter().copied().map(Some).collect();
+            match kind {
+                1 => {
+                    script.remove(at);
+                    truth.remove(at);
+                }
+                2 => {
+                    script.insert(at, foreign[at % foreign.len()].clone());
+                    truth.insert(at, None);
+                }
+                3 => {
+                    script = (0..count).map(|i| foreign[i % foreign.len()].clone()).collect();
+                }
+                _ => {}
+            }
+            if script.is_empty() {
+                continue;
+            }
+            let Ok(work) = works(model, &[Take { sound: &sound, script: &script, pins: &[] }]).pop().unwrap() else {
+                continue;
+            };
+            let a = work.alignment(model);
+            fits[kind].push(work.sense);
+            if std::env::var("INFO").is_ok() {
+                println!(
+                    "kind {kind} count {} fit {:.2} sense {:.2} missing {:.2}",
+                    script.len(),
+                    work.fit,
+                    work.sense,
+                    a.syllables.iter().filter(|s| !s.heard).count() as f64 / script.len() as f64
+                );
+            }
+            if a.notes.contains(&lianpu::speech::Note::Doubtful) {
+                doubted[kind] += 1;
+            }
+            let right = a.notes.iter().any(|note| match (kind, note) {
+                (1, lianpu::speech::Note::NotInScript { before, .. }) => before.abs_diff(at) <= 1,
+                (2, lianpu::speech::Note::NotHeard { first, .. }) => first.abs_diff(at) <= 1,
+                _ => false,
+            });
+            where_off[kind] += usize::from(right);
+            let any = a
+                .notes
+                .iter()
+                .any(|n| !matches!(n, lianpu::speech::Note::Noisy { .. } | lianpu::speech::Note::Doubtful));
+            noted[kind] += usize::from(any);
+            quiet[kind] += 1;
+            let (t, f): (Vec<_>, Vec<_>) = truth.iter().zip(times(&a)).filter_map(|(t, f)| Some(((*t)?, f))).unzip();
+            errors[kind].add(&t, &f);
+        }
+    }
+    for (kind, name) in
+        ["right script", "word left out of it", "word too many in it", "another script"].iter().enumerate()
+    {
+        fits[kind].sort_by(f32::total_cmp);
+        let of = |q: f64| fits[kind][((fits[kind].len() - 1) as f64 * q) as usize];
+        println!(
+            "{name}: of {} parted {} (right place {}) doubted {}; fit {:.2} {:.2} {:.2} {:.2} {:.2}",
+            quiet[kind],
+            noted[kind],
+            where_off[kind],
+            doubted[kind],
+            of(0.0),
+            of(0.02),
+            of(0.5),
+            of(0.98),
+            of(1.0)
+        );
+        errors[kind].print(name);
+    }
+}
+
+/// Every recording of a folder with the scripts of the others.
+fn wrong(model: &Model, folder: &Path) {
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .flatten()
+        .map(|e| e.path())
+        .filter(|p| p.extension().is_some_and(|e| e == "lab"))
+        .collect();
+    files.sort();
+    let scripts: Vec<Vec<Syllable>> = files
+        .iter()
+        .map(|f| syllables(&std::fs::read_to_string(f).unwrap(), System::Hanyu).unwrap_or_default())
+        .collect();
+    for (n, file) in files.iter().enumerate() {
+        let Ok(sound) = Sound::read(&file.with_extension("wav")) else { continue };
+        for (other, script) in scripts.iter().enumerate() {
+            if !script.is_empty() {
+                println!("{} {} {}", if n == other { "right" } else { "wrong" }, n, script.len());
+                run(model, &file.file_stem().unwrap().to_string_lossy(), &sound, script);
+            }
+        }
+    }
+}
+
+/// Of syllables with about such a confidence, how many are right.
+pub fn table(sure: &[f64], right: &[bool]) {
+    if std::env::var("TABLE").is_err() {
+        return;
+    }
+    for (low, high) in
+        [(0.0, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01)]
+    {
+        let own: Vec<(f64, bool)> =
+            sure.iter().copied().zip(right.iter().copied()).filter(|(s, _)| (low..high).contains(s)).collect();
+        let n = own.len().max(1) as f64;
+        println!(
+            "  said {low:.2} to {high:.2}: {:5} syllables, said {:.3}, right {:.3}",
+            own.len(),
+            own.iter().map(|o| o.0).sum::<f64>() / n,
+            own.iter().filter(|o| o.1).count() as f64 / n
+        );
+    }
 }

@@ -1,0 +1,36 @@
+//! How good a lesson is where nothing is wrong: its recordings, and the times that deserve a look.
+
+use std::path::Path;
+
+use super::{Clip, Finding, Lesson};
+
+/// Judges the lesson in `root`; nothing where it cannot be read, which is for [`super::check`] to say.
+#[must_use]
+pub fn quality(root: &Path) -> Vec<Finding> {
+    let Ok(lesson) = Lesson::read(root) else { return Vec::new() };
+    lesson.clips.iter().flat_map(of_clip).collect()
+}
+
+fn of_clip(clip: &Clip) -> Vec<Finding> {
+    let name = &clip.entry.name;
+    let mut found = Vec::new();
+    if let Some(sound) = &clip.sound {
+        let quality = sound.quality();
+        found.push(Finding::Fine(format!(
+            "clip {name}: voice at {:.0} dB, noise at {:.0} dB, peaks at {:.1} dB",
+            quality.voice_db, quality.noise_db, quality.peak_db
+        )));
+        let odd = quality.remarks().into_iter().map(|r| Finding::Odd(format!("clip {name}: its sound: {r}")));
+        found.extend(odd);
+    }
+    for doubt in clip.doubts() {
+        let text = doubt.syllable.and_then(|s| clip.syllables.get(s)).map(|s| s.text.as_str());
+        let what = match (text, doubt.heard) {
+            (None, _) => "something is said that is not in the script".to_owned(),
+            (Some(text), false) => format!("`{text}` is not heard"),
+            (Some(text), true) => format!("the times of `{text}` are {:.0} % sure", 100.0 * doubt.confidence),
+        };
+        found.push(Finding::Odd(format!("clip {name}: {:.2} to {:.2} s: {what}", doubt.start, doubt.end)));
+    }
+    found
+}

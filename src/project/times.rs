@@ -1,0 +1,155 @@
+//! Times as a clip takes them from a file: which tier holds its syllables, whether they are its script's, and what its
+//! tiers of phones and shapes mean for the mouth.
+
+use super::Clip;
+use super::label::label_fits;
+use crate::disk::{Fault, Result};
+use crate::pose::MouthShape;
+use crate::script::{self, Syllable, System};
+use crate::speech::Pin;
+use crate::timeline::Spoken;
+use crate::timing::{self, Interval, Tier, Timing};
+
+impl Clip {
+    /// Checks times against the script and takes them.
+    pub(super) fn take_timing(&mut self, mut timing: Timing) -> Result<()> {
+        if let Some(wrong) = timing.tier("shapes").and_then(|t| t.spoken().find(|i| shape_of(&i.label).is_none())) {
+            return Err(Fault::new(format!(
+                "`{}` at {:.3} s in the tier `shapes` is no mouth shape",
+                wrong.label, wrong.start
+            ))
+            .help("shapes: m f h a i u e o n, and h' for h"));
+        }
+        let Some(tier) = self.syllable_tier(&timing).cloned() else {
+            let Some(shapes) = timing.shapes().cloned() else {
+                let names: Vec<&str> = timing.tiers.iter().map(|t| t.name.as_str()).collect();
+                return Err(Fault::new("there is no tier `syllables`")
+                    .help(format!("name the tier with the syllables so; its tiers are {}", names.join(", "))));
+            };
+            // Shapes alone, as other programs of lip movement write them.
+            self.guess();
+            self.timing.duration = self.timing.duration.max(timing.duration);
+            self.timing.set_tier(shapes);
+            return Ok(());
+        };
+        if self.plain.is_empty() && self.script.is_empty() {
+            // Times without a script: the labels are the script.
+            let labels: Vec<&str> = tier.spoken().map(|i| i.label.as_str()).collect();
+            self.script = labels.join(" ");
+            self.plain = script::syllables(&self.script, self.entry.script_system.unwrap_or(System::Auto))?;
+        }
+        let mut syllables = Tier::new("syllables");
+        match timing::match_labels(&self.plain, &tier, label_fits, |s| s.text.clone()) {
+            Ok(()) => syllables.intervals = tier.spoken().cloned().collect(),
+            Err(fault) => {
+                syllables.intervals = self.shared_out(&tier).ok_or(fault)?;
+                timing.guessed = true;
+            }
+        }
+        // The tier of syllables may have any name in a file; here it has its own. Words and phrases stay beside it.
+        if tier.name != "syllables" && !timing.guessed {
+            timing.tiers.retain(|t| t.name != tier.name);
+        }
+        timing.set_tier(syllables);
+        self.timing = timing;
+        Ok(())
+    }
+
+    /// The tier that holds what is said: `syllables`, else the one that says the script, syllable by syllable or in
+    /// larger pieces, else the likeliest. None where there are only shapes.
+    fn syllable_tier<'a>(&self, timing: &'a Timing) -> Option<&'a Tier> {
+        let found = timing::fitting_tier(timing, &self.plain, label_fits);
+        let fits = |t: &&Tier| t.name == "syllables" || timing::first_parting(&self.plain, t, label_fits).is_none();
+        if self.plain.is_empty() || found.is_some_and(|t| fits(&t)) {
+            return found;
+        }
+        timing.tiers.iter().find(|t| self.shared_out(t).is_some()).or(found)
+    }
+
+    /// The syllables of labels that hold several each, as words and subtitles do: they share their label's time. None
+    /// where the labels are not the script.
+    fn shared_out(&self, tier: &Tier) -> Option<Vec<Interval>> {
+        let bare = |text: &str| -> String {
+            script::without_braces(text).chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+        };
+        let mut out = Vec::with_capacity(self.plain.len());
+        let mut rest = self.plain.as_slice();
+        for interval in tier.spoken() {
+            let wanted = bare(&interval.label);
+            let mut text = String::new();
+            let mut count = 0;
+            while text.len() < wanted.len() {
+                text.push_str(&bare(&rest.get(count)?.text));
+                count += 1;
+            }
+            if text != wanted {
+                return None;
+            }
+            let share = interval.duration() / count.max(1) as f64;
+            for (k, syllable) in rest[..count].iter().enumerate() {
+                let start = interval.start + k as f64 * share;
+                out.push(Interval::new(start, start + share, syllable.text.clone()));
+            }
+            rest = &rest[count..];
+        }
+        (rest.is_empty() && !out.is_empty()).then_some(out)
+    }
+
+    /// Whether times were found by an alignment to a script that was changed afterwards. Times that came otherwise are
+    /// somebody's work, and a script that does not fit them is a mistake to be told.
+    pub(super) fn is_of_an_older_script(&self, timing: &Timing) -> bool {
+        let Some(tier) = timing.syllables().filter(|_| !self.plain.is_empty()) else { return false };
+        let parts = timing::first_parting(&self.plain, tier, label_fits).is_some();
+        parts && self.score.aligned.is_some() && self.score.aligned != self.fingerprint()
+    }
+
+    /// Keeps what a hand has set for the syllables that the new script still has.
+    pub(super) fn carry_pins(&mut self, timing: &Timing) {
+        let Some(tier) = timing.syllables() else { return };
+        let labels: Vec<&Interval> = tier.spoken().collect();
+        for (old, new) in timing::common(&self.plain, &labels, |s, i| label_fits(s, &i.label)) {
+            if self.score.pins.binary_search(&new).is_ok() {
+                let interval = labels[new];
+                self.carried.push(Pin { syllable: old, start: interval.start, end: interval.end });
+            }
+        }
+        self.score.pins.clear();
+        self.score.aligned = None;
+    }
+}
+
+/// Start and end of each phone of a syllable, where the tier has them all, under the names they have here.
+pub(super) fn phones_of(tier: &Tier, syllable: &Syllable, interval: &Interval) -> Option<Vec<(f64, f64)>> {
+    let from = tier.intervals.partition_point(|i| f64::midpoint(i.start, i.end) < interval.start);
+    let names = script::segments(syllable);
+    let inside = tier.intervals[from..].iter().take_while(|i| f64::midpoint(i.start, i.end) < interval.end);
+    let inside: Vec<&Interval> = inside.take(names.len() + 1).collect();
+    let same = inside.len() == names.len() && inside.iter().zip(&names).all(|(i, n)| i.label == *n);
+    (same && !names.is_empty()).then(|| inside.iter().map(|i| (i.start, i.end)).collect())
+}
+
+/// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).
+fn shape_of(label: &str) -> Option<MouthShape> {
+    let label = label.trim();
+    label.strip_suffix(['\'', '’']).unwrap_or(label).parse().ok()
+}
+
+/// Mouth shapes with times of their own: touching ones are one utterance.
+pub(super) fn of_shapes(tier: &Tier) -> Vec<Spoken> {
+    const TOUCHING: f64 = 1e-3;
+    let mut runs: Vec<Vec<&Interval>> = Vec::new();
+    for interval in tier.spoken() {
+        match runs.last_mut() {
+            Some(run) if run.last().is_some_and(|l| interval.start - l.end < TOUCHING) => run.push(interval),
+            _ => runs.push(vec![interval]),
+        }
+    }
+    runs.iter()
+        .filter_map(|run| {
+            let (start, end) = (run.first()?.start, run.last()?.end);
+            let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
+            let shapes = run.iter().filter_map(|i| shape_of(&i.label).map(|s| (share(i.start), s))).collect();
+            Some(Spoken { start, end, shapes, exact: true })
+        })
+        .collect()
+}

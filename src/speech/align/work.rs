@@ -1,0 +1,198 @@
+//! One take on its way to an alignment.
+
+use std::borrow::Cow;
+
+use super::chain::Chain;
+use super::confidence::{self, SIGNS};
+use super::features::{self, FRAMES, Features};
+use super::model::{Gaussian, Model, judge};
+use super::search::{Costs, Search, Section, Way};
+use super::sections::sections;
+use super::units::{ANY, SILENCE, Unit};
+use super::{outcome, voice};
+use crate::disk::{Fault, Result};
+use crate::speech::{Alignment, Note, Pin, Take};
+
+/// How much the sound counts: frames overlap and follow each other, and say much the same.
+static SOUND: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("SOUND").map_or(0.2, |s| s.parse().unwrap()));
+
+fn env(name: &str, usual: f32) -> f32 {
+    std::env::var(name).map_or(usual, |s| s.parse().unwrap())
+}
+
+/// What leaving the way costs.
+static COSTS: std::sync::LazyLock<Costs> = std::sync::LazyLock::new(|| Costs { pause: env("PAUSE", 6.0), other: env("OTHER", 40.0), skip: env("SKIP", 40.0) });
+
+/// Frames to either side of a rough way that are searched.
+const WIDE: usize = 200;
+
+/// Frames to either side of a way that was searched once.
+const NARROW: usize = 80;
+
+/// A voice is at least this loud, in dB below full; dither and a dead cable are not.
+const FAINTEST: f32 = -75.0;
+
+/// And at least so much louder than what the recording is quietest in, in dB.
+const FLATTEST: f32 = 3.0;
+
+/// Nobody speaks a syllable in less, in seconds.
+const SHORTEST: f64 = 0.05;
+
+/// A voice this much above the noise or less, in dB, is hard to follow.
+const NOISY: f32 = 22.0;
+
+/// A script that fits the sound by less than this better than its syllables the other way round, a syllable, is not
+/// what is said. Of 208 synthesised recordings with their own script the least was 5.5, of as many with that of another
+/// one in ten was above 6.2.
+const SENSELESS: f32 = 4.5;
+
+/// A take on its way to an alignment.
+pub struct Work {
+    /// What is heard.
+    pub heard: Features,
+    /// What is looked for.
+    pub chain: Chain,
+    pins: Vec<Pin>,
+    units: Vec<Unit>,
+    silence: Option<Gaussian>,
+    sections: Vec<Section>,
+    ways: Vec<Way>,
+    /// The signs by which each syllable's confidence is judged.
+    pub signs: Vec<[f32; SIGNS]>,
+    /// How well the script fits the sound before the model was moved, in logarithms a frame against any voice.
+    pub fit: f32,
+    /// How much better the script fits than its syllables the other way round, a syllable; nothing where it is pinned.
+    pub sense: f32,
+    rate: f32,
+    duration: f64,
+}
+
+impl Work {
+    /// Hears a take.
+    ///
+    /// # Errors
+    /// No syllables, no voice, too short.
+    pub fn of(take: &Take<'_>) -> Result<Self> {
+        let chain = Chain::of(take.script);
+        let count = chain.syllables.len();
+        if count == 0 {
+            return Err(Fault::new("the script has no syllables").help("write down what is said in the recording"));
+        }
+        let duration = take.sound.duration();
+        let least = SHORTEST * count as f64;
+        if duration < least {
+            return Err(Fault::new(format!(
+                "the recording is {duration:.2} s long, too short for the {count} syllables of its script"
+            ))
+            .help("check that this is its script, and that the recording is whole"));
+        }
+        let samples: Cow<'_, [f32]> = take.sound.resampled(features::RATE);
+        let heard = Features::of(&samples);
+        if heard.voice < FAINTEST || heard.snr < FLATTEST || heard.sounding() < SHORTEST {
+            return Err(Fault::new("there is no voice in the recording")
+                .help("listen to it; check the microphone and its level"));
+        }
+        let usual = chain.usual(0..chain.links.len());
+        let rate = (heard.sounding() / usual).clamp(0.4, 2.5) as f32;
+        let silence = voice::silence(&heard);
+        let sections = sections(heard.len(), count, take.pins);
+        let units = chain.units();
+        let pins = take.pins.iter().copied().filter(|p| p.syllable < count).collect();
+        let (ways, signs) = (Vec::new(), Vec::new());
+        Ok(Self { heard, chain, pins, units, silence, sections, ways, signs, fit: 0.0, sense: f32::INFINITY, rate, duration })
+    }
+
+    /// Searches once, by a model.
+    pub fn pass(&mut self, model: &Model) {
+        let (terms, rows) = voice::ready(model, &self.units, self.silence.as_ref());
+        let mut scores = judge(&terms, &self.heard);
+        // Against any voice: so scores stay near 0, and what is said beside the script has none.
+        let (silence, rest) = scores.split_at_mut(1);
+        let (any, rest) = rest.split_at_mut(1);
+        for row in silence.iter_mut().chain(rest) {
+            for (value, any) in row.iter_mut().zip(&any[0]) {
+                *value = *SOUND * (*value - any);
+            }
+        }
+        any[0].fill(0.0);
+        let search = Search { chain: &self.chain, scores: &scores, rows: &rows, rate: self.rate, costs: *COSTS };
+        let first = self.ways.is_empty();
+        let near = |number: usize| self.ways.get(number).map(|w| w.links.as_slice());
+        let width = if first { WIDE } else { NARROW };
+        let ways: Vec<Way> =
+            self.sections.iter().enumerate().map(|(n, s)| search.way(s, near(n), width)).collect();
+        let snr = self.heard.snr;
+        self.signs = self
+            .sections
+            .iter()
+            .zip(&ways)
+            .flat_map(|(section, way)| confidence::signs(&search, section, way, snr))
+            .collect();
+        if first {
+            self.fit = fit(&search, &self.sections, &ways);
+            let reversed = self.chain.reversed();
+            let other = (0..self.chain.syllables.len()).filter(|n| self.chain.differs(&reversed, *n)).count();
+            if self.pins.is_empty() && other > 0 {
+                let count = other as f64;
+                let search = Search { chain: &reversed, scores: &scores, rows: &rows, rate: self.rate, costs: *COSTS };
+                let other = search.way(&self.sections[0], None, WIDE).score;
+                self.sense = ((ways[0].score - other) / count) as f32;
+            }
+        }
+        self.ways = ways;
+    }
+
+    /// The unit of every frame.
+    #[must_use]
+    pub fn labels(&self) -> Vec<Unit> {
+        let mut labels = vec![SILENCE; self.heard.len()];
+        for (section, way) in self.sections.iter().zip(&self.ways) {
+            let links = &self.chain.links[self.chain.syllables[section.first].start..];
+            for (link, (from, to)) in links.iter().zip(&way.links) {
+                labels[*from..*to].fill(link.unit);
+            }
+            for (from, to) in way.beside.iter().flatten() {
+                labels[*from..*to].fill(ANY);
+            }
+        }
+        labels
+    }
+
+    /// What was found.
+    #[must_use]
+    pub fn alignment(&self, model: &Model) -> Alignment {
+        let confidence: Vec<f64> =
+            self.signs.iter().map(|s| confidence::confidence(s, &model.confidence)).collect();
+        let syllables = outcome::spoken(&self.chain, &self.sections, &self.ways, &self.pins, &confidence, self.duration);
+        let mut notes = Vec::new();
+        if self.heard.snr < NOISY {
+            notes.push(Note::Noisy { snr: f64::from(self.heard.snr) });
+        }
+        let missing = syllables.iter().filter(|s| !s.heard).count() as f32 / syllables.len() as f32;
+        if self.sense < SENSELESS || (self.sense < 2.0 * SENSELESS && missing > 0.25) || missing > 0.5 {
+            notes.push(Note::Doubtful);
+        } else {
+            notes.extend(outcome::partings(&self.sections, &self.ways, &syllables));
+        }
+        Alignment { syllables, notes }
+    }
+
+    /// How long what was heard lasts, in seconds.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.heard.len() as f64 / FRAMES
+    }
+}
+
+/// How well the script fits, a frame.
+fn fit(search: &Search<'_>, sections: &[Section], ways: &[Way]) -> f32 {
+    let (mut sum, mut frames) = (0.0_f64, 0_usize);
+    for (section, way) in sections.iter().zip(ways) {
+        let start = search.chain.syllables[section.first].start;
+        for (offset, (from, to)) in way.links.iter().enumerate() {
+            sum += search.of_link(start + offset)[*from..*to].iter().map(|v| f64::from(*v)).sum::<f64>();
+            frames += to - from;
+        }
+    }
+    (sum / frames.max(1) as f64) as f32
+}
