@@ -207,6 +207,34 @@ fn a_step_of_the_cursor_is_a_few_hundred_bytes_and_rest_is_none() {
 }
 
 #[test]
+fn a_step_over_frequencies_and_pitch_is_no_more_and_a_page_of_them_some_thousand_bytes() {
+    let dir = lessons();
+    let mut terminal = Terminal::start(dir.path(), 80, 24, &[]);
+    terminal.send("\r");
+    terminal.until("the lesson", |s| s.contains("What is there"));
+    terminal.send("\r");
+    terminal.until("the timeline", |s| s.contains("hao3") && !s.contains("reading the sound"));
+    let before = terminal.still();
+    terminal.send("SP");
+    terminal.until("the lanes", |s| s.contains("spectrum") && s.contains("Hz") && !s.contains("listening"));
+    let whole = terminal.still() - before;
+    let (mut sizes, mut before) = (Vec::new(), terminal.still());
+    for _ in 0..20 {
+        terminal.send("l");
+        let now = terminal.still();
+        sizes.push(now - before);
+        before = now;
+    }
+    let mean = sizes.iter().sum::<usize>() / sizes.len();
+    println!("the lanes {whole} bytes; steps {sizes:?}, {mean} on average");
+    assert!(mean <= 900 && whole < 16_000, "{whole} {sizes:?}");
+    std::thread::sleep(Duration::from_millis(400));
+    assert_eq!(terminal.bytes(), before, "nothing is drawn when nothing moves");
+    terminal.send("qqq");
+    assert!(terminal.ends());
+}
+
+#[test]
 fn with_no_color_there_is_no_colour_code_at_all() {
     let dir = lessons();
     let mut terminal = Terminal::start(dir.path(), 80, 24, &[("NO_COLOR", "1")]);

@@ -173,6 +173,12 @@ impl Editor {
         }
     }
 
+    /// The marked place at the cursor.
+    #[must_use]
+    pub fn place_here(&self) -> Option<(f64, f64)> {
+        self.places.iter().copied().find(|(from, to)| *from - 1e-6 <= self.cursor && self.cursor < *to)
+    }
+
     /// How many columns of so many a phone takes in the mean; none where the clip has no phones.
     #[must_use]
     pub fn columns_a_phone(&self, clip: &Clip, columns: u16) -> Option<f64> {

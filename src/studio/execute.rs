@@ -22,6 +22,8 @@ use crate::speech::Sound;
 pub enum Job {
     /// Open a lesson and check it.
     Open(PathBuf),
+    /// Check a lesson's files, after they were written.
+    Check(PathBuf),
     /// Make the outline of a clip's sound.
     Outline {
         /// The lesson's folder.
@@ -129,7 +131,8 @@ pub fn execute(state: &mut State, action: Action) -> Vec<Job> {
             choose(state, by);
             None
         }
-        Action::Quit | Action::Back | Action::Save | Action::Export | Action::Undo | Action::Redo => {
+        Action::Save => save(state).then(|| state.lesson().map(|l| Job::Check(l.root.clone()))).flatten(),
+        Action::Quit | Action::Back | Action::Export | Action::Undo | Action::Redo => {
             whole(state, action);
             None
         }
@@ -160,7 +163,6 @@ fn whole(state: &mut State, action: Action) {
     match action {
         Action::Quit => leave(state, Action::Quit),
         Action::Back => back(state),
-        Action::Save => save(state),
         Action::Export => ask_export(state),
         _ => edits::retrace(state, action),
     }
@@ -278,10 +280,13 @@ fn go(state: &mut State, by: Action) {
     }
 }
 
-fn save(state: &mut State) {
-    let Some(lesson) = state.lesson_mut() else { return };
-    match lesson.save() {
-        Ok(written) if written.is_empty() => state.say("saved: nothing had changed"),
+/// Writes the lesson's files; whether any of them changed.
+fn save(state: &mut State) -> bool {
+    let Some(lesson) = state.lesson_mut() else { return false };
+    let done = lesson.save();
+    let any = done.as_ref().is_ok_and(|written| !written.is_empty());
+    match done {
+        Ok(_) if !any => state.say("saved: nothing had changed"),
         Ok(written) => {
             let names: Vec<String> =
                 written.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy().into_owned()).collect();
@@ -289,6 +294,7 @@ fn save(state: &mut State) {
         }
         Err(fault) => state.say_fault(&fault),
     }
+    any
 }
 
 fn ask_export(state: &mut State) {

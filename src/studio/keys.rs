@@ -156,7 +156,7 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("x", Delete), ("Delete", Delete)], "delete", "delete the key"),
     row(&[Timeline], &[("v", Mark)], "", "mark a stretch: from here, to here"),
     row(&[Timeline], &[("X", DeleteRange)], "", "delete the edit of a stretch"),
-    row(&[Tapping], &[("Enter", TapStart)], "start of a syllable", "begin; then: the next syllable starts now"),
+    row(&[Tapping], &[("Enter", TapStart)], "start", "begin; then: the next syllable starts now"),
     row(&[Tapping], &[("Space", TapEnd)], "pause", "the syllable ends now, a pause follows"),
     row(&[Tapping], &[("Backspace", TapBack)], "back", "take the last one back, and go a second back"),
     row(&[Tapping], &[("Tab", TapNext(1)), ("Shift-Tab", TapNext(-1))], "syllable", "another syllable comes next"),

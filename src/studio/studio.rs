@@ -38,6 +38,13 @@ pub enum Report {
         /// What a check found.
         findings: Vec<Finding>,
     },
+    /// The files of a lesson were checked.
+    Checked {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// What was found.
+        findings: Vec<Finding>,
+    },
     /// The outline of a sound is ready.
     Outlined {
         /// The lesson's folder.
@@ -262,6 +269,13 @@ impl Studio {
                     ));
                 }
                 self.state.open = Some(Open::new(name, *lesson, findings));
+            }
+            Report::Checked { root, findings } => {
+                self.under_way -= 1;
+                let open = self.state.open.as_mut();
+                if let Some(open) = open.filter(|o| o.lesson.as_ref().is_ok_and(|l| l.root == root)) {
+                    open.findings = findings;
+                }
             }
             Report::Outlined { root, clip, loudest } => {
                 self.under_way -= 1;

@@ -32,8 +32,9 @@ pub(super) fn open(state: &mut State) {
     };
     let first = if clip.intervals().first().is_some_and(|i| editor.cursor <= i.start) { 0 } else { syllable };
     let from = (editor.cursor - RUN_UP).max(0.0);
+    let home = editor.cursor;
     if let Some(editor) = &mut state.editor {
-        editor.tapping = Some(Tapping::new(from, first));
+        editor.tapping = Some(Tapping::new(home, from, first));
         editor.mark = None;
     }
     show(state);
@@ -68,6 +69,8 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
         Action::TapKeep => return keep(state),
         Action::TapDrop => {
             let many = tapping.taps.iter().filter(|t| !t.is_end).count();
+            tapping.at = tapping.home;
+            show(state);
             close(state);
             state.say(if many == 0 { "nothing was tapped".into() } else { format!("{many} taps dropped") });
         }
@@ -313,7 +316,7 @@ pub(super) fn lines(state: &State, tapping: &Tapping, clip: &Clip) -> Vec<String
     let name = |i: usize| clip.syllables.get(i).map(|s| format!("{} {}", s.text, s.pinyin).trim_end().to_owned());
     let speed = if tapping.speed < 1.0 { "half speed" } else { "full speed" };
     let source = match state.can_hear {
-        true => "you hear the clip from here".to_owned(),
+        true => "the clip is played here; if you hear nothing, play it yourself when the count ends".to_owned(),
         false => format!(
             "no sound from here: play the recording yourself{}, from {:.2} s, when the count ends",
             if tapping.speed < 1.0 { " at half speed" } else { "" },

@@ -37,6 +37,8 @@ pub struct Tapping {
     pub from: f64,
     /// Where it is, in seconds of the sound.
     pub at: f64,
+    /// Where the cursor was before, to go back to where nothing is kept.
+    pub home: f64,
     /// The syllable that comes next.
     pub next: usize,
     /// Seconds on the clock of the wall.
@@ -126,15 +128,16 @@ impl Presses {
 }
 
 impl Tapping {
-    /// Ready to begin at a time, the syllable that comes first being `next`.
+    /// Ready to begin at a time, the syllable that comes first being `next`; the cursor is at `home`.
     #[must_use]
-    pub fn new(from: f64, next: usize) -> Self {
+    pub fn new(home: f64, from: f64, next: usize) -> Self {
         Self {
             phase: Phase::Ready,
             speed: 1.0,
             taps: Vec::new(),
             from,
             at: from,
+            home,
             next,
             wall: 0.0,
             presses: Presses::default(),
@@ -352,7 +355,7 @@ mod tests {
 
     /// Running from 0, on a clip of 60 s.
     fn running() -> Tapping {
-        let mut tapping = Tapping::new(0.0, 0);
+        let mut tapping = Tapping::new(0.0, 0.0, 0);
         tapping.press(false, 0.0, 9);
         assert_eq!(tapping.count(), Some(3));
         assert_eq!(tapping.advance(1.0, 60.0), Passed::Seen);
@@ -440,7 +443,7 @@ mod tests {
 
     #[test]
     fn eight_flashes_measure_how_late_taps_come_and_stray_ones_do_not_matter() {
-        let mut tapping = Tapping::new(0.0, 0);
+        let mut tapping = Tapping::new(0.0, 0.0, 0);
         tapping.measure();
         assert_eq!(tapping.flash(), None);
         tapping.advance(EVERY, 60.0);
@@ -460,7 +463,7 @@ mod tests {
 
     #[test]
     fn the_clock_strikes_when_something_is_to_be_seen_and_rests_when_nothing_moves() {
-        let mut tapping = Tapping::new(0.0, 0);
+        let mut tapping = Tapping::new(0.0, 0.0, 0);
         assert_eq!(tapping.beat(25.0), None);
         tapping.press(false, 0.0, 9);
         assert!((tapping.beat(25.0).unwrap() - BEAT).abs() < 1e-9);

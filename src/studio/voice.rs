@@ -1,7 +1,6 @@
 //! Sound to hear, by a player program that is there: the clip while its syllables are tapped, and the clicks of a
 //! measurement. Over a network the player would sound at the wrong end, so there is none.
 
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
@@ -112,17 +111,20 @@ fn begin(program: &Path, options: &[&str], wave: &[u8]) -> Option<(Child, tempfi
     Some((child, file))
 }
 
-/// Samples as a WAV file of 16 bits.
+/// Samples as a WAV file of 16 bits; none where they are more than such a file can hold.
 fn wave(rate: u32, samples: &[f32]) -> Option<Vec<u8>> {
-    let spec =
-        hound::WavSpec { channels: 1, sample_rate: rate, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
-    let mut bytes = Cursor::new(Vec::with_capacity(samples.len() * 2 + 44));
-    let mut writer = hound::WavWriter::new(&mut bytes, spec).ok()?;
-    for sample in samples {
-        writer.write_sample((sample.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16).ok()?;
-    }
-    writer.finalize().ok()?;
-    Some(bytes.into_inner())
+    let size = u32::try_from(samples.len() * 2).ok()?;
+    let mut bytes = Vec::with_capacity(samples.len() * 2 + 44);
+    bytes.extend(b"RIFF");
+    bytes.extend(size.checked_add(36)?.to_le_bytes());
+    bytes.extend(b"WAVEfmt \x10\0\0\0\x01\0\x01\0");
+    bytes.extend(rate.to_le_bytes());
+    bytes.extend((rate * 2).to_le_bytes());
+    bytes.extend(b"\x02\0\x10\0data");
+    bytes.extend(size.to_le_bytes());
+    let whole = |s: &f32| ((s.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16).to_le_bytes();
+    bytes.extend(samples.iter().flat_map(whole));
+    Some(bytes)
 }
 
 /// A recording from a time on; at half speed by overlapping windows that are put where they fit best (WSOLA: Verhelst

@@ -36,6 +36,10 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                 });
                 reports.send(Report::Opened { name, lesson: Box::new(lesson), findings })
             }
+            Job::Check(root) => {
+                let findings = catch_unwind(|| check(&root)).unwrap_or_default();
+                reports.send(Report::Checked { root, findings })
+            }
             Job::Outline { root, clip, sound } => {
                 // One column over everything builds the whole outline.
                 let (low, high) = sound.peaks(0.0, sound.duration(), 1).first().copied().unwrap_or_default();

@@ -93,7 +93,9 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
         now.push_str(&shown);
     }
     let mut lines = vec![(now, Style::new())];
-    if let Some((index, syllable, interval)) =
+    if let Some((from, to)) = editor.place_here() {
+        lines.push((format!("○ a syllable without words, {from:.3} to {to:.3} s: Enter types"), colours.accent()));
+    } else if let Some((index, syllable, interval)) =
         editor.syllable.and_then(|i| Some((i, clip.syllables.get(i)?, clip.intervals().get(i)?)))
     {
         let reading = match (syllable.pinyin.as_str(), syllable.zhuyin.as_str()) {

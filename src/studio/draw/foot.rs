@@ -83,6 +83,7 @@ fn hints(buffer: &mut Buffer, row: Rect, foot: Foot<'_>) {
 /// Whether a hint helps on this lane of this lesson.
 fn belongs(hint: &str, foot: Foot<'_>) -> bool {
     match hint {
+        _ if foot.place == Place::Tapping => true,
         "start" | "end" | "read" | "look at" | "mark" | "tap" | "syllable" => foot.lane == Some(Lane::Syllables),
         "align" => foot.opens && foot.lane.is_none_or(|l| l == Lane::Syllables),
         "add" | "change" | "delete" | "key" => foot.lane.is_some_and(|l| l != Lane::Syllables),
@@ -95,14 +96,14 @@ fn belongs(hint: &str, foot: Foot<'_>) -> bool {
 /// Who gets room first: how to get help and out, what is always wanted, what the lane is for, then the rest.
 fn rank(hint: &str) -> u8 {
     match hint {
-        "help" | "back" | "quit" => 0,
+        "help" | "back" | "quit" | "done" => 0,
         "play" | "undo" | "save" => 1,
         "lane" => 3,
         "syllable" | "key" => 4,
         "align" | "look at" => 5,
         "export" => 6,
         "zoom" => 7,
-        "tap" | "mark" => 8,
+        "tap" | "mark" | "drop" => 8,
         _ => 2,
     }
 }

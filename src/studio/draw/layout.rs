@@ -74,6 +74,11 @@ impl Layout {
             true => 2,
             false => 0,
         };
+        if is_tall {
+            // The face keeps its size as long as the curves have rows to spare.
+            let more = tone + if wave > 0 { spectrum } else { 0 };
+            curves -= more.min(curves.saturating_sub(5));
+        }
         let top = room - least - phones - curves - wave - spectrum - tone;
         // The face has its shape, the panel the rest.
         let upper = Rect::new(area.x, area.y + 1, area.width, top);

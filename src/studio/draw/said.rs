@@ -116,6 +116,10 @@ fn places(buffer: &mut Buffer, layout: &Layout, editor: &Editor) {
         if start >= 0 {
             put(buffer, at(start), row.y, 1, "│", style);
         }
+        let follows = editor.places.iter().any(|p| (p.0 - to).abs() < 0.02);
+        if !follows && (0..i32::from(columns)).contains(&end) {
+            put(buffer, at(end), row.y, 1, "│", Style::new());
+        }
         let middle = i32::midpoint(start + 1, end);
         if (0..i32::from(columns)).contains(&middle) && middle > start {
             put(buffer, at(middle), row.y, 1, "○", style);
