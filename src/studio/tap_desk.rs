@@ -48,10 +48,8 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
     match action {
         Action::TapStart => tapping.press(false, latency, count),
         Action::TapEnd => tapping.press(true, latency, count),
-        Action::TapBack => {
-            if tapping.back() {
-                state.hear = Some(Hear::Clip { from: tapping.at, speed: tapping.speed });
-            }
+        Action::TapBack if tapping.back() => {
+            state.hear = Some(Hear::Clip { from: tapping.at, speed: tapping.speed });
         }
         Action::TapSpeed | Action::TapNext(_) if !tapping.is_ready() => {
             state.say("that can be chosen before it begins: q keeps what was tapped, t goes on from there");

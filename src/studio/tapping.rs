@@ -346,7 +346,7 @@ fn lit(at: f64) -> Option<usize> {
 /// How late a tap comes after the flash nearest to it.
 fn late(tap: f64) -> Option<f64> {
     let number = (tap / EVERY).round();
-    (1.0..=FLASHES as f64).contains(&number).then(|| tap - number * EVERY)
+    (1.0..=FLASHES as f64).contains(&number).then_some(tap - number * EVERY)
 }
 
 #[cfg(test)]

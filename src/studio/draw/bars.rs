@@ -94,7 +94,7 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
     }
     let mut lines = vec![(now, Style::new())];
     if let Some((from, to)) = editor.place_here() {
-        lines.push((format!("○ a syllable without words, {from:.3} to {to:.3} s: Enter types"), colours.accent()));
+        lines.push((format!("○ no words yet   {from:.3} to {to:.3} s   Enter types them"), colours.accent()));
     } else if let Some((index, syllable, interval)) =
         editor.syllable.and_then(|i| Some((i, clip.syllables.get(i)?, clip.intervals().get(i)?)))
     {

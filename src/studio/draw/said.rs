@@ -64,7 +64,8 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
         let room = at(end).saturating_sub(inside);
         let mut used = put(buffer, inside, row.y, room, &syllable.text, style.patch(BOLD));
         if used == 0 && room > 0 {
-            used = put(buffer, inside, row.y, 1, "·", style);
+            let sign = if doubtful { ("!", style.patch(colours.warning())) } else { ("·", style) };
+            used = put(buffer, inside, row.y, 1, sign.0, sign.1);
         } else if doubtful {
             used += put(buffer, inside + used, row.y, room - used, "!", style.patch(colours.warning()));
             if used <= cells(&syllable.text) {
