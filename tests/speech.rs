@@ -232,6 +232,17 @@ fn what_is_damaged_is_silent_and_what_follows_keeps_its_time() {
     assert!(sound.warnings.iter().any(|w| w.contains("damaged and silent, the first at 0.0")), "{:?}", sound.warnings);
     let second = |samples: &[f32]| samples[5_400..7_400].to_vec();
     assert!(apart(&second(&sound.samples), &second(&truth), 0) < 0.05);
+    // MP3 has no times in it.
+    let mut hurt = sounds("tone.mp3");
+    let bursts_apart = 288 * 9;
+    hurt[bursts_apart + 50..bursts_apart + 600].fill(0xA5);
+    let sound = read(&hurt).unwrap();
+    assert!(sound.warnings.iter().any(|w| w.contains("damaged and silent, the first at 0.")), "{:?}", sound.warnings);
+    let mut last = truth.clone();
+    last[..5_000].fill(0.0);
+    let late = (-2_000..2_000).min_by_key(|shift| (apart(&sound.samples, &last, *shift) * 1e6) as i64);
+    println!("after the hole in the MP3: {late:?} samples late, {:?}", sound.warnings);
+    assert!(late.is_some_and(|late: i64| late.abs() <= 1));
     let cut = sounds("tone.mp3");
     let sound = read(&cut[..cut.len() / 2]).unwrap();
     assert!(sound.samples.len() > 3_000 && sound.samples.len() < 6_000, "{}", sound.samples.len());

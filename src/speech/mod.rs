@@ -10,6 +10,7 @@ mod iso;
 mod kind;
 mod levels;
 mod mix;
+mod mp3;
 mod nuclei;
 mod peaks;
 mod pitch;
