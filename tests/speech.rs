@@ -296,7 +296,7 @@ fn damaged_files_of_every_kind_are_read_or_refused_within_bounds() {
         ["tone.flac", "tone.ogg", "tone.mp3", "untagged.mp3", "tone.aac", "tone.m4a", "video.mp4", "ima.wav", "msa.wav"]
     {
         let whole = sounds(name);
-        for round in 0..std::env::var("ROUNDS").map_or(60, |r| r.parse().unwrap()) {
+        for round in 0..60 {
             let mut bytes = whole.clone();
             match round % 3 {
                 0 => bytes.truncate(random() % whole.len()),
