@@ -17,6 +17,7 @@ use symphonia::core::units::TimeBase;
 use super::iso::Index;
 use super::kind::Kind;
 use super::mix::Mixer;
+use super::mp3;
 use super::read::{RATES, Raw, broken, short_enough};
 use crate::disk::{Fault, Result};
 
@@ -31,7 +32,7 @@ const AAC_DELAY: usize = 1024;
 /// milliseconds, and what is left out at the beginning may be 48 ms.
 const GAP: f64 = 0.06;
 
-/// Samples that may be missing where a file says how many it has, without a word: fewer than a frame of MP3.
+/// Samples that may be missing where an MP3 says how many it has, without a word: fewer than a frame.
 const MISSING: u64 = 1000;
 
 /// As many packets may fail before a file is given up in which none has been decoded.
@@ -40,6 +41,7 @@ const PATIENCE: usize = 200;
 /// Reads a file; a fault without a next step is one of the kind, for which converting helps.
 pub(super) fn read(mut file: File, kind: Kind, only: Option<usize>) -> Result<Raw> {
     let index = if kind == Kind::Iso { Index::find(&mut file).map_err(broken)? } else { None };
+    let holes = if kind == Kind::Mp3 { mp3::holes(&mut file).map_err(broken)? } else { Vec::new() };
     std::io::Seek::rewind(&mut file).map_err(broken)?;
     let stream = MediaSourceStream::new(Box::new(file), Default::default());
     let opened = symphonia::default::get_probe().probe(&Hint::new(), stream, Default::default(), Default::default());
@@ -50,7 +52,7 @@ pub(super) fn read(mut file: File, kind: Kind, only: Option<usize>) -> Result<Ra
     })?;
     let mut decoding = Decoding::begin(format.as_mut(), only)?;
     decoding.all(format.as_mut())?;
-    let Some((rate, mut mixer)) = decoding.mixer else {
+    let Some((rate, mut mixer)) = decoding.mixer.take() else {
         return Err(match decoding.failed {
             Some(error) => Fault::new(format!("cannot decode its sound: {error}")),
             None => Fault::new("there is no sound in the file").help("was it cut off? record or save it again"),
@@ -62,24 +64,33 @@ pub(super) fn read(mut file: File, kind: Kind, only: Option<usize>) -> Result<Ra
             mixer.trim(frames(edit.skip), edit.length.map(frames));
             0
         }
-        None if kind == Kind::Mp3 && !decoding.delay_known => MP3_DELAY,
+        None if kind == Kind::Mp3 && decoding.delay == 0 => MP3_DELAY,
         None if decoding.codec == codec::CODEC_ID_AAC => AAC_DELAY,
         None => 0,
     };
     mixer.trim(delay, None);
+    // From the last, so that the places of those before stay as they are.
+    let cut = if decoding.delay > 0 { decoding.delay } else { delay };
+    for hole in holes.iter().rev() {
+        short_enough((mixer.frames() + hole.lost) as u64, rate)?;
+        let at = hole.at.saturating_sub(cut);
+        mixer.insert(at, hole.lost);
+        decoding.damaged_at(at as f64 / f64::from(rate));
+        decoding.damaged.1 = decoding.damaged.1.min(at as f64 / f64::from(rate));
+    }
     let mut warnings = decoding.warnings;
-    // MP3 has no times in it: what is lost shows only where the file says how much there should be.
-    if let Some(missing) =
-        decoding.said.filter(|_| decoding.delay_known).and_then(|said| said.checked_sub(mixer.frames() as u64))
+    if let Some(missing) = decoding.said.and_then(|said| said.checked_sub(mixer.frames() as u64))
+        && decoding.delay > 0
         && missing > MISSING
     {
         let missing = missing as f64 / f64::from(rate);
-        warnings.push(format!("{missing:.2} s of the file are damaged or cut off; what follows them comes early"));
+        warnings.push(format!("{missing:.2} s of the file are cut off or damaged"));
     }
     if decoding.damaged.0 > 0 {
         let (count, first) = decoding.damaged;
-        let parts = if count == 1 { "1 part".to_owned() } else { format!("{count} parts") };
-        warnings.push(format!("{parts} of the file are damaged and silent, the first at {first:.2} s"));
+        let parts =
+            if count == 1 { "1 part of the file is".to_owned() } else { format!("{count} parts of the file are") };
+        warnings.push(format!("{parts} damaged and silent, the first at {first:.2} s"));
     }
     if mixer.frames() == 0 {
         return Err(Fault::new("there is no sound in the file").help("was it cut off? record or save it again"));
@@ -98,8 +109,8 @@ struct Decoding {
     only: Option<usize>,
     /// The time that the first sample has, in units of the track.
     origin: Option<i64>,
-    /// The file says what its encoder put before the sound, and the decoder takes it off.
-    delay_known: bool,
+    /// Samples that the file says its encoder put before the sound, which the decoder takes off.
+    delay: usize,
     /// How many samples the file says that there are.
     said: Option<u64>,
     /// How many packets could not be decoded, and when the first should have sounded.
@@ -125,7 +136,7 @@ impl Decoding {
                         mixer: None,
                         only,
                         origin: None,
-                        delay_known: track.delay.unwrap_or(0) > 0,
+                        delay: track.delay.unwrap_or(0) as usize,
                         said: track.num_frames,
                         damaged: (0, 0.0),
                         failed: None,

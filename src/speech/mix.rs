@@ -75,6 +75,12 @@ impl Mixer {
         self.mixed.resize(self.mixed.len() + frames, 0.0);
     }
 
+    /// Puts frames of silence before the frame at a place.
+    pub fn insert(&mut self, at: usize, frames: usize) {
+        let at = at.min(self.mixed.len());
+        self.mixed.splice(at..at, std::iter::repeat_n(0.0, frames));
+    }
+
     /// Drops `start` frames from the beginning, and all beyond `length` after them.
     pub fn trim(&mut self, start: usize, length: Option<usize>) {
         self.mixed.drain(..start.min(self.mixed.len()));

@@ -11,6 +11,7 @@ mod iso;
 mod kind;
 mod levels;
 mod mix;
+mod mp3;
 mod nuclei;
 mod peaks;
 mod pitch;
