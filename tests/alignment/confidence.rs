@@ -43,7 +43,8 @@ fn confidence_is_the_share_that_is_right() {
         gap += (said - right).abs() * bin.len() as f64 / marks.len() as f64;
     }
     // How well it tells the wrong from the right: the chance that a right one is trusted more than a wrong one.
-    let (right, wrong): (Vec<&(f64, bool)>, Vec<&(f64, bool)>) = marks.iter().partition(|m| m.1);
+    let of = |good: bool| marks.iter().filter(|m| m.1 == good).collect::<Vec<_>>();
+    let (right, wrong) = (of(true), of(false));
     let pairs = right.iter().flat_map(|r| {
         wrong.iter().map(move |w| {
             if r.0 > w.0 {

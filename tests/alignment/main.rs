@@ -132,8 +132,7 @@ fn equal_shares_are_no_match() {
     let Some(mbrola) = recordings::mbrola() else { return };
     let Some(espeak) = recordings::espeak("m0_150") else { return };
     let Some(htk) = recordings::real("htk") else { return };
-    for (name, recordings) in [("mbrola", mbrola), ("espeak m0_150", espeak), ("real, htk", htk)]
-    {
+    for (name, recordings) in [("mbrola", mbrola), ("espeak m0_150", espeak), ("real, htk", htk)] {
         let (mut shares, mut own) = (Errors::default(), Errors::default());
         for recording in &recordings {
             let sound = &recording.sound;

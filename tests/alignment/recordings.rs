@@ -9,14 +9,17 @@ use lianpu::timing;
 
 use crate::test_data;
 
+/// The start and end of each syllable, in seconds.
+pub type Times = Vec<(f64, f64)>;
+
 /// A recording, what is said in it, and when.
 #[derive(Clone)]
 pub struct Recording {
     pub name: String,
     pub sound: Sound,
     pub script: Vec<Syllable>,
-    /// The start and end of each syllable of the script, in seconds.
-    pub truth: Vec<(f64, f64)>,
+    /// When each syllable of the script is spoken.
+    pub truth: Times,
     /// Syllable, name as its maker has it, start, end.
     pub phones: Vec<(usize, String, f64, f64)>,
 }
@@ -96,7 +99,8 @@ pub fn mbrola() -> Option<Vec<Recording>> {
 /// People, aligned by another program: `htk` or `neural`.
 pub fn real(source: &str) -> Option<Vec<Recording>> {
     let folder = test_data::find("speech/real")?;
-    let mut files: BTreeMap<String, (Vec<String>, Vec<(f64, f64)>)> = BTreeMap::new();
+    // Labels and times of each file.
+    let mut files = BTreeMap::<String, (Vec<String>, Times)>::new();
     for row in rows(&folder.join("real_truth.csv")).iter().filter(|r| r[6] == source) {
         let (labels, truth) = files.entry(row[1].clone()).or_default();
         labels.push(row[3].clone());
