@@ -148,7 +148,7 @@ impl Work {
             let far =
                 |a: &[(usize, usize)], b: &[(usize, usize)]| a.iter().zip(b).any(|(a, b)| a.0.abs_diff(b.0) > NARROW);
             if first || fresh.zip(near).is_some_and(|(f, n)| far(f, n)) {
-                let other = search.way(section, fresh, WIDE);
+                let other = search.way(section, fresh, if first { WIDE } else { NARROW });
                 if way.as_ref().is_none_or(|w| other.score > w.score) {
                     way = Some(other);
                 }
