@@ -17,6 +17,12 @@ pub struct Fourier {
     im: [f32; SIZE],
 }
 
+impl Default for Fourier {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Fourier {
     /// Makes the tables.
     #[must_use]
@@ -48,14 +54,15 @@ impl Fourier {
     /// Transforms what was loaded: the power of every frequency of the first signal and of the second.
     pub fn powers(&mut self, out: &mut [[f32; BINS]; 2]) {
         self.transform();
-        for k in 0..BINS {
+        let [one, two] = out;
+        for (k, (one, two)) in one.iter_mut().zip(two).enumerate() {
             let m = (SIZE - k) % SIZE;
             // Of a real signal the transform at −k is the conjugate of that at k: so the two come apart.
             let (a, b, c, d) = (self.re[k], self.im[k], self.re[m], self.im[m]);
             let (x, y) = (0.5 * (a + c), 0.5 * (b - d));
             let (u, v) = (0.5 * (b + d), 0.5 * (c - a));
-            out[0][k] = x * x + y * y;
-            out[1][k] = u * u + v * v;
+            *one = x * x + y * y;
+            *two = u * u + v * v;
         }
     }
 

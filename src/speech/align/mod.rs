@@ -32,11 +32,14 @@ use crate::disk::Result;
 /// Passes after the first, each with the model moved towards what the one before found. A third changes nothing.
 const PASSES: usize = 2;
 
+/// The model moved by other takes must fit so much better to be used, in logarithms a frame.
+const GAIN: f32 = 0.5;
+
 /// Aligns the takes of one speaker, each to its own script. Their sound is pooled to adapt the model to the voice
 /// where that helps.
 ///
 /// # Errors
-/// For each take: no voice in it, too short or far too long for its script, a script without syllables.
+/// For each take: no voice in it, too short for its script, a script without syllables.
 #[must_use]
 pub fn align(takes: &[Take<'_>]) -> Vec<Result<Alignment>> {
     let model = Model::learned();
@@ -68,6 +71,3 @@ pub fn works(model: &Model, takes: &[Take<'_>]) -> Vec<Result<Work>> {
 fn heard_helps(model: &Model, others: &Heard, work: &Work) -> bool {
     others.frames() > 0.0 && voice::gain(model, &others.moved(model), &work.heard, &work.labels()) > GAIN
 }
-
-/// The model moved by other takes must fit so much better to be used, in logarithms a frame.
-const GAIN: f32 = 0.5;

@@ -30,8 +30,9 @@ pub fn spoken(
             let span = |link: usize| way.links[link - first];
             let mut phones: Vec<SpokenPhone> = Vec::new();
             for (index, phone) in chain.phones[number].iter().enumerate() {
-                let own = links.clone().filter(|l| chain.links[*l].phone == index);
-                let (Some(a), Some(b)) = (own.clone().next(), own.last()) else { continue };
+                let mut own = links.clone().filter(|l| chain.links[*l].phone == index);
+                let Some(a) = own.next() else { continue };
+                let b = own.next_back().unwrap_or(a);
                 phones.push(SpokenPhone { phone, start: time(span(a).0), end: time(span(b).1) });
             }
             let (start, end) = (time(span(links.start).0), time(span(links.end - 1).1));
@@ -41,10 +42,10 @@ pub fn spoken(
         }
     }
     let pinned = |number: usize| pins.iter().find(|p| p.syllable == number);
-    for number in 0..syllables.len() {
+    for (number, syllable) in syllables.iter_mut().enumerate() {
         if let Some(pin) = pinned(number) {
-            place(&mut syllables[number], pin.start, pin.end);
-            syllables[number].confidence = 1.0;
+            place(syllable, pin.start, pin.end);
+            syllable.confidence = 1.0;
         }
     }
     // Pins need not lie on frames: what is beside them gives way.

@@ -41,10 +41,10 @@ const NOISY: f32 = 22.0;
 /// A script that fits the sound by less than this better than its syllables the other way round, a syllable, is not
 /// what is said. Of 208 synthesised recordings with their own script the least was 5.5, of as many with that of another
 /// one in ten was above 6.2.
-const SENSELESS: f32 = 4.5;
+const SENSELESS: f32 = 5.0;
 
 /// What is this much below the loud frames, in dB, is not heard as the beginning of a word: breath, a closing mouth. (Set
-/// with an eye on the pauses that a person marked in `f1_P8`.)
+/// with an eye on the pauses that a person marked in `f1_P8`.) In noise nothing is that faint, and nothing is taken off.
 const FAINT: f32 = -30.0;
 
 /// So much is taken off the beginning of a syllable at most, in frames: 60 ms.
@@ -148,7 +148,7 @@ impl Work {
             let far =
                 |a: &[(usize, usize)], b: &[(usize, usize)]| a.iter().zip(b).any(|(a, b)| a.0.abs_diff(b.0) > NARROW);
             if first || fresh.zip(near).is_some_and(|(f, n)| far(f, n)) {
-                let other = search.way(section, fresh, WIDE);
+                let other = search.way(section, fresh, if first { WIDE } else { NARROW });
                 if way.as_ref().is_none_or(|w| other.score > w.score) {
                     way = Some(other);
                 }
@@ -211,7 +211,6 @@ impl Work {
     /// a closure begins that nobody hears.
     fn trimmed(&self) -> Vec<Way> {
         let mut ways = self.ways.clone();
-        let least = FAINT.max(8.0 - self.heard.snr);
         for (section, way) in self.sections.iter().zip(&mut ways).filter(|(s, _)| !s.full) {
             let start = self.chain.syllables[section.first].start;
             let mut before = section.from;
@@ -220,7 +219,7 @@ impl Work {
                 let first = &mut way.links[links.start - start];
                 if first.0 > before || syllable == section.first {
                     let most = (first.0 + TRIM).min(first.1.saturating_sub(1));
-                    while first.0 < most && self.heard.levels.get(first.0).is_some_and(|l| *l < least) {
+                    while first.0 < most && self.heard.levels.get(first.0).is_some_and(|l| *l < FAINT) {
                         first.0 += 1;
                     }
                 }
@@ -241,7 +240,7 @@ impl Work {
             notes.push(Note::Noisy { snr: f64::from(self.heard.snr) });
         }
         let missing = syllables.iter().filter(|s| !s.heard).count() as f32 / syllables.len() as f32;
-        if self.sense < SENSELESS || (self.sense < 2.0 * SENSELESS && missing > 0.25) || missing > 0.5 {
+        if self.sense < SENSELESS || (self.sense < 2.0 * SENSELESS && missing > 0.15) || missing > 0.5 {
             notes.push(Note::Doubtful);
         } else {
             notes.extend(outcome::partings(&self.sections, &self.ways, &syllables));
