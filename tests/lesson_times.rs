@@ -148,7 +148,10 @@ fn with_times(timing: &Timing, script: &str) -> Lesson {
     create(&folder.path().join("hello"), &new).unwrap().lesson
 }
 
-fn timing(tiers: &[(&str, &[(f64, f64, &str)])]) -> Timing {
+/// A tier: its name, and when each label starts and ends.
+type Labels<'a> = (&'a str, &'a [(f64, f64, &'a str)]);
+
+fn timing(tiers: &[Labels<'_>]) -> Timing {
     let mut timing = Timing { duration: 2.0, ..Timing::default() };
     for (name, labels) in tiers {
         let intervals = labels.iter().map(|(a, b, l)| Interval::new(*a, *b, *l)).collect();

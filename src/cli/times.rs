@@ -5,11 +5,8 @@ use serde::Serialize;
 use crate::disk::{Fault, Result};
 use crate::project::Clip;
 use crate::script::Syllable;
-use crate::speech;
+use crate::speech::{self, SURE};
 use crate::timing::Interval;
-
-/// Confidence below which a place is worth a look.
-const SURE: f64 = 0.75;
 
 /// One syllable, as it is printed.
 #[derive(Debug, Serialize)]

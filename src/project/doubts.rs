@@ -1,6 +1,7 @@
 //! How sure the times of a clip are, and where an author should look.
 
 use super::Clip;
+use crate::speech::SURE;
 
 /// The tier in which an alignment says how sure it is of each syllable: `0.98`.
 pub(super) const CONFIDENCE: &str = "confidence";
@@ -8,9 +9,6 @@ pub(super) const CONFIDENCE: &str = "confidence";
 pub(super) const NOT_HEARD: &str = "not heard";
 /// What that tier says of a stretch between syllables that the script does not have.
 pub(super) const NOT_IN_SCRIPT: &str = "not in the script";
-
-/// Confidence from which on nothing is said of a syllable.
-const SURE: f64 = 0.75;
 
 /// A place that an author should look at.
 #[derive(Debug, Clone, PartialEq)]

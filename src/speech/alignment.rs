@@ -5,6 +5,9 @@ use std::fmt;
 use super::Sound;
 use crate::script::Syllable;
 
+/// Confidence from which on a syllable's times need no look.
+pub const SURE: f64 = 0.75;
+
 /// A recording with what is said in it, to be aligned.
 #[derive(Debug, Clone, Copy)]
 pub struct Take<'a> {

@@ -26,7 +26,7 @@ mod wav;
 mod wav_form;
 
 pub use align::align;
-pub use alignment::{Alignment, Note, Pin, SpokenPhone, SpokenSyllable, Take};
+pub use alignment::{Alignment, Note, Pin, SURE, SpokenPhone, SpokenSyllable, Take};
 pub use nuclei::{Heard, nuclei};
 pub use pitch::{Pitch, pitch};
 pub use quality::Quality;

@@ -88,6 +88,12 @@ impl Sound {
 }
 
 impl Quality {
+    /// Whether the noise is in the way of weak consonants.
+    #[must_use]
+    pub fn is_noisy(&self) -> bool {
+        self.snr_db < NOISY
+    }
+
     /// What is not as it should be, a sentence each, the worst first; nothing where all is well.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
@@ -100,7 +106,7 @@ impl Quality {
             let said = if share < 0.1 { "some loud places are".to_owned() } else { format!("{share:.1} % of it is") };
             remarks.push(format!("{said} clipped: record again with the microphone turned down"));
         }
-        if self.snr_db < NOISY {
+        if self.is_noisy() {
             let snr = self.snr_db.round();
             remarks.push(format!(
                 "noisy: the voice stands only {snr} dB above the noise, and times of weak sounds may be wrong; 20 dB are good"

@@ -35,9 +35,6 @@ const FLATTEST: f32 = 3.0;
 /// Nobody speaks a syllable in less, in seconds.
 const SHORTEST: f64 = 0.05;
 
-/// A voice this much above the noise or less, in dB, is hard to follow.
-const NOISY: f32 = 22.0;
-
 /// A script that fits the sound by less than this better than its syllables the other way round, a syllable, is not
 /// what is said. Of 208 synthesised recordings with their own script the least was 5.5, of as many with that of another
 /// one in ten was above 6.2.
@@ -70,6 +67,8 @@ pub struct Work {
     rate: f32,
     passes: usize,
     duration: f64,
+    /// How far the voice stands out of the noise, in dB, where that is too little.
+    noisy: Option<f64>,
 }
 
 impl Work {
@@ -84,6 +83,7 @@ impl Work {
             return Err(Fault::new("the script has no syllables").help("write down what is said in the recording"));
         }
         let duration = take.sound.duration();
+        let quality = take.sound.quality();
         let least = SHORTEST * count as f64;
         if duration < least {
             return Err(Fault::new(format!(
@@ -118,6 +118,7 @@ impl Work {
             rate,
             passes: 0,
             duration,
+            noisy: quality.is_noisy().then_some(quality.snr_db),
         })
     }
 
@@ -236,9 +237,7 @@ impl Work {
         let confidence: Vec<f64> = self.signs.iter().map(|s| confidence::confidence(s, &model.confidence)).collect();
         let syllables = outcome::spoken(&self.chain, &self.sections, &ways, &self.pins, &confidence, self.duration);
         let mut notes = Vec::new();
-        if self.heard.snr < NOISY {
-            notes.push(Note::Noisy { snr: f64::from(self.heard.snr) });
-        }
+        notes.extend(self.noisy.map(|snr| Note::Noisy { snr }));
         let missing = syllables.iter().filter(|s| !s.heard).count() as f32 / syllables.len() as f32;
         if self.sense < SENSELESS || (self.sense < 2.0 * SENSELESS && missing > 0.15) || missing > 0.5 {
             notes.push(Note::Doubtful);
