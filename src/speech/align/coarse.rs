@@ -11,8 +11,8 @@ pub const STEP: usize = 2;
 /// Ways that lie so far behind the best are given up. Scores are in units of the search.
 const BEAM: f32 = 250.0;
 
-/// So many places in the script are looked at once at most: half a minute of speech or more.
-const WIDEST: usize = 1024;
+/// So many places in the script are looked at once at most: some 80 syllables, a quarter of a minute of speech.
+const WIDEST: usize = 512;
 
 const NEVER: f32 = f32::NEG_INFINITY;
 

@@ -29,6 +29,9 @@ const OTHER: usize = 20;
 /// How often bands are made wider.
 const TRIES: usize = 3;
 
+/// Frames of a long recording: a minute and a half.
+const LONG: usize = 18_000;
+
 /// So many links to either side of where a way touches the edge of its band are given a wider one.
 const NEIGHBOURS: usize = 12;
 
@@ -144,7 +147,9 @@ impl Search<'_> {
             None => self.roughly(section).map_or_else(|| self.spread(section), |r| r.0),
         };
         let mut widths = vec![width; rough.len()];
-        for _ in 0..TRIES {
+        // In a long recording some edge is always touched; all of it is not searched again and again for that.
+        let tries = if section.to - section.from > LONG { 1 } else { TRIES };
+        for _ in 0..tries {
             let (way, touched) = self.within(section, &rough, &widths);
             if touched.is_empty() && way.score > NEVER {
                 return way;
