@@ -376,3 +376,22 @@ fn nothing_is_written_where_one_of_the_files_was_changed_by_something_else() {
     assert_eq!(std::fs::read(&grid).unwrap(), before);
     assert!(lesson.is_unsaved());
 }
+
+#[test]
+fn a_recording_alone_becomes_a_lesson_whose_words_are_typed_onto_what_is_heard() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("hello");
+    let new = NewLesson { speech: Some(recording()), ..NewLesson::default() };
+    create(&root, &new).unwrap();
+    let mut lesson = Lesson::open(&root).unwrap();
+    let sound = lesson.clips[0].sound.clone().unwrap();
+    let places = lianpu::speech::nuclei(&sound).syllables;
+    let change = lesson.lay_words(0, "您好", &places).unwrap();
+    lesson.change(change).unwrap();
+    lesson.save().unwrap();
+    drop(lesson);
+    let mut lesson = Lesson::open(&root).unwrap();
+    assert!(close(&times(&lesson), &TRUTH, 0.08), "{:?}", times(&lesson));
+    align(&mut lesson);
+    assert!(close(&times(&lesson), &TRUTH, 0.05), "{:?}", times(&lesson));
+}

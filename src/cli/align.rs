@@ -18,16 +18,16 @@ use crate::timing::{self, Format, Interval, Tier, Timing};
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The lesson; its clips that have no times of their own yet.
-    #[arg(value_name = "PROJECT", required_unless_present = "speech", conflicts_with_all = ["speech", "script", "from"])]
+    #[arg(value_name = "PROJECT", conflicts_with_all = ["speech", "script", "from"])]
     project: Option<PathBuf>,
-    /// One clip of the lesson, whatever times it has.
+    /// One clip of the lesson, whatever times it has: those not set in the studio are found anew.
     #[arg(long, requires = "project")]
     clip: Option<String>,
     /// A recording instead of a lesson.
     #[arg(long, value_name = "FILE")]
     speech: Option<PathBuf>,
     /// What is said in it.
-    #[arg(long, value_name = "FILE", requires = "speech", required_unless_present_any = ["project", "without_script"])]
+    #[arg(long, value_name = "FILE", requires = "speech")]
     script: Option<PathBuf>,
     /// How the script is written; told from the text where left out.
     #[arg(long, value_name = "SYSTEM")]
@@ -56,9 +56,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             marks(&sound, args, out)
         }
         (None, Some(speech)) => in_files(speech, args, out),
-        (None, None) => {
-            Err(Fault::new("there is nothing to align").help("name a lesson, or --speech FILE").of_the_call())
-        }
+        (None, None) => Err(Fault::new("there is nothing to align")
+            .help("name a lesson, or give --speech FILE --script FILE")
+            .of_the_call()),
     }
 }
 
@@ -106,7 +106,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     if let Some(why) = lesson.read_only.clone().filter(|_| args.out.is_none()) {
         return Err(Fault::new(format!("the times cannot be kept: {why}"))
             .at(project)
-            .help("close it there, or give --out FILE"));
+            .help("open it where it can be written, or give --out FILE"));
     }
     if lesson.is_unsaved() {
         return Err(Fault::new("the lesson has changes that were never saved")
@@ -117,6 +117,9 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         Some(number) => vec![number],
         None => wanted(&lesson),
     };
+    if wanted.is_empty() && spoken_clips(&lesson).is_empty() {
+        eprintln!("note: no clip has both a recording and a script, so there is nothing to align");
+    }
     let mut failed: Vec<(String, Fault)> = Vec::new();
     let mut aligned = Vec::new();
     for sound in wanted.iter().filter_map(|n| lesson.clips[*n].sound.as_deref()) {
@@ -139,7 +142,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
             Err(fault) => failed.push((name, fault)),
         }
     }
-    if args.out.is_none() {
+    if args.out.is_none() && lesson.is_unsaved() {
         lesson.save()?;
     }
     if args.json || args.out.is_some() {
@@ -227,12 +230,27 @@ fn tiers(text: &str, syllables: &[Syllable], found: &Alignment, duration: f64) -
     timing
 }
 
+/// The format that a file's name ends in; a TextGrid without an ending.
+fn format_of(path: &Path) -> Result<Format> {
+    match (Format::from_path(path), path.extension()) {
+        (Some(format), _) => Ok(format),
+        (None, None) => Ok(Format::TextGrid),
+        (None, Some(ending)) => {
+            let known: Vec<&str> = Format::ALL.iter().map(|f| f.extension()).collect();
+            Err(Fault::new(format!("`{}` is the ending of no timing format", ending.to_string_lossy()))
+                .at(path)
+                .help(format!("endings: {}", known.join(", ")))
+                .of_the_call())
+        }
+    }
+}
+
 /// Writes rows or times to where they were asked for.
 fn give(rows: &[Row], timing: impl Fn() -> Timing, args: &Args, out: &mut dyn Write) -> Result<()> {
     let text = if args.json {
         json(rows)?
     } else if let Some(path) = &args.out {
-        let format = Format::from_path(path).unwrap_or(Format::TextGrid);
+        let format = format_of(path)?;
         let timing = timing();
         timing::writable(&timing, format).map_err(Fault::of_the_call)?;
         timing::write(&timing, format)
@@ -272,7 +290,7 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
         tier.intervals.extend(numbered.map(|(i, (a, b))| Interval::new(*a, *b, (i + 1).to_string())));
         let mut timing = Timing { duration: sound.duration(), ..Timing::default() };
         timing.set_tier(tier);
-        timing::write(&timing, Format::from_path(path).unwrap_or(Format::TextGrid))
+        timing::write(&timing, format_of(path)?)
     } else {
         marks.iter().map(|m| format!("{:8.3} {:8.3}  {}\n", m.start, m.end, m.kind)).collect()
     };
