@@ -250,6 +250,25 @@ fn what_is_damaged_is_silent_and_what_follows_keeps_its_time() {
 }
 
 #[test]
+fn a_time_that_lies_hours_ahead_is_damage_and_no_silence() {
+    let mut far = sounds("tone.ogg");
+    let last = far.windows(4).rposition(|w| w == b"OggS").unwrap();
+    for hours in [1_u64, 3, 1000] {
+        far[last + 6..last + 14].copy_from_slice(&(hours * 3600 * 16_000).to_le_bytes());
+        far[last + 22..last + 26].fill(0);
+        let sum = far[last..].iter().fold(0_u32, |sum, byte| {
+            let sum = sum ^ u32::from(*byte) << 24;
+            (0..8).fold(sum, |s, _| if s >> 31 == 1 { s << 1 ^ 0x04C1_1DB7 } else { s << 1 })
+        });
+        far[last + 22..last + 26].copy_from_slice(&sum.to_le_bytes());
+        let sound = read(&far).unwrap();
+        println!("{hours} h: {} samples, {:?}", sound.samples.len(), sound.warnings);
+        assert!((1_000..12_000).contains(&sound.samples.len()), "{}", sound.samples.len());
+        assert!(sound.warnings.iter().any(|w| w.contains("it is damaged")), "{:?}", sound.warnings);
+    }
+}
+
+#[test]
 fn what_cannot_be_read_says_why_and_what_to_do() {
     let good = tone(1, 8_000, 16, false);
     let with = |at: usize, bytes: &[u8]| {

@@ -87,6 +87,41 @@ fn a_newer_search_takes_the_place_of_the_one_that_waits() {
 }
 
 #[test]
+fn a_search_asked_for_in_another_lesson_waits_for_the_first_ones_end() {
+    let dir = tempfile::tempdir().unwrap();
+    lesson(&dir.path().join("first"), Some(TIMES), &[]);
+    lesson(&dir.path().join("second"), Some(TIMES), &[]);
+    let (gate, opened) = std::sync::mpsc::channel::<()>();
+    let opened = std::sync::Mutex::new(opened);
+    let aligner = Aligner::new(move |_| {
+        opened.lock().unwrap().recv().unwrap();
+        vec![(0, Ok(found()))]
+    });
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
+    let open = |bench: &mut Bench| {
+        bench.studio.key("Enter");
+        while bench.studio.state.open.is_none() {
+            let report = bench.studio.reports().recv().unwrap();
+            bench.studio.receive(report);
+        }
+        bench.studio.key("Enter");
+        bench.studio.key("A");
+    };
+    open(&mut bench);
+    for key in ["q", "q", "Down"] {
+        bench.studio.key(key);
+    }
+    open(&mut bench);
+    assert!(bench.message().contains("is aligned next"), "{}", bench.message());
+    gate.send(()).unwrap();
+    gate.send(()).unwrap();
+    bench.studio.settle();
+    assert!(bench.studio.state.lesson().unwrap().root.ends_with("second"));
+    assert_eq!(bench.times(), FOUND);
+}
+
+#[test]
 fn a_lesson_that_is_only_looked_at_is_not_aligned() {
     let first = Bench::new(Some(TIMES), &[]);
     let clip = first.dir.path().join("nihao/clips/nihao/timing.TextGrid");
@@ -264,6 +299,63 @@ fn leaving_while_tapping_keeps_what_was_tapped() {
     assert!(bench.studio.state.leaving);
     let read = Lesson::read(&bench.dir.path().join("nihao")).unwrap();
     assert!((read.clips[0].intervals()[0].start - 0.5).abs() < 1e-6);
+}
+
+#[test]
+fn a_tap_at_the_very_end_is_kept_and_what_cannot_be_kept_is_not_lost_by_leaving() {
+    let mut bench = Bench::new(Some(TIMES), &[]);
+    let wav = bench.dir.path().join("nihao/clips/nihao/speech.wav");
+    // 1.599875 s: rounded to 1.5999 s, that lies beyond.
+    let samples: Vec<i16> = hound::WavReader::open(&wav).unwrap().samples().map(Result::unwrap).take(12_799).collect();
+    let spec =
+        hound::WavSpec { channels: 1, sample_rate: 8000, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
+    let mut writer = hound::WavWriter::create(&wav, spec).unwrap();
+    samples.iter().for_each(|s| writer.write_sample(*s).unwrap());
+    writer.finalize().unwrap();
+    bench.keys("q q Enter Enter t Enter");
+    bench.studio.advance(2.1);
+    bench.studio.advance(0.5);
+    bench.keys("Enter");
+    bench.studio.advance(0.5);
+    bench.keys("Enter");
+    bench.studio.advance(0.599_86);
+    bench.keys("Space q");
+    let duration = bench.studio.state.clip().unwrap().duration();
+    assert!(bench.message().contains("tapped 2"), "{}", bench.message());
+    assert!(bench.times()[1].1 > duration - 2e-4 && bench.times()[1].1 <= duration, "{:?}", bench.times());
+
+    // 好 has no room behind 您 that goes on to the end.
+    let mut bench = Bench::new(Some(TIMES), &[]);
+    bench.keys("t Enter");
+    bench.studio.advance(2.1);
+    bench.studio.advance(0.5);
+    bench.keys("Enter");
+    bench.studio.advance(1.09);
+    bench.keys("Space Ctrl-c");
+    assert!(bench.message().contains("no room is left"), "{}", bench.message());
+    let taps = |bench: &Bench| bench.studio.state.editor.as_ref().unwrap().tapping.as_ref().map(|t| t.taps.len());
+    assert_eq!((bench.studio.state.leaving, taps(&bench)), (false, Some(2)));
+    bench.keys("x Ctrl-c");
+    assert!(bench.studio.state.leaving);
+}
+
+#[test]
+fn marked_places_give_way_to_syllables() {
+    let mut bench = Bench::new(Some([(0.3, 0.5), (0.9, 1.1)]), &[]);
+    bench.studio.state.editor.as_mut().unwrap().places = vec![(0.5, 0.7), (1.12, 1.5)];
+    let places = |bench: &Bench| bench.studio.state.editor.as_ref().unwrap().places.clone();
+    bench.keys("Home ]");
+    assert_eq!((bench.times()[0].1, places(&bench)), (0.51, vec![(0.51, 0.7), (1.12, 1.5)]));
+    bench.keys("}");
+    let end = bench.times()[0].1;
+    assert_eq!(places(&bench)[0], (end, 0.7));
+    bench.keys("t Enter");
+    bench.studio.advance(2.1);
+    bench.studio.advance(0.3);
+    bench.keys("Enter");
+    bench.studio.advance(0.45);
+    bench.keys("Space q");
+    assert_eq!((bench.times()[0], places(&bench)), ((0.3, 0.75), vec![(1.12, 1.5)]));
 }
 
 /// A lesson of sound alone, three places marked in it.

@@ -544,6 +544,16 @@ fn the_command_converts_mouth_shapes_at_any_frame_rate() {
     assert_eq!(tsv, "0\tX\n1\tA\n1.5\tD\n2\tX\n");
     let (_, tsv, _) = convert(&[moho, "--to", "rhubarb-tsv"]);
     assert!(tsv.contains("1.25\tA"), "{tsv}");
+    // What the file says of its rate counts, however it is written.
+    let said = "MohoSwitch1\n FPS 12\n1 rest\n13 MBP\n25 rest\n";
+    let wide: Vec<u8> = std::iter::once(0xFEFF).chain(said.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+    for bytes in [said.as_bytes(), &wide] {
+        std::fs::write(&path, bytes).unwrap();
+        for more in [&["--fps", "12"][..], &["--fps", "30"], &[]] {
+            let (_, tsv, error) = convert(&[&[moho, "--to", "rhubarb-tsv"], more].concat());
+            assert_eq!(tsv, "0\tX\n1\tA\n2\tX\n", "{more:?} {error}");
+        }
+    }
     let cues = folder.path().join("cues.tsv");
     std::fs::write(&cues, "0\tX\n1\tA\n1.5\tD\n2\tX\n").unwrap();
     let (_, back, _) = convert(&[cues.to_str().unwrap(), "--to", "moho", "--fps", "30"]);

@@ -44,7 +44,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 .help("give a timing file or a ratio record")
                 .of_the_call());
         }
-        Kind::Times => times(args, &bytes, to)?,
+        Kind::Times => times(args, to)?,
     };
     match &args.out {
         Some(path) => disk::write_whole(path, text.as_bytes()),
@@ -88,15 +88,11 @@ fn ratios(path: &Path, to: Format, tier: Option<&str>) -> Result<String> {
     Ok(if to == Format::Json { record.to_json() } else { record.to_csv() })
 }
 
-fn times(args: &Args, bytes: &[u8], to: Format) -> Result<String> {
-    let mut timing = timing::read(&args.file)?;
-    let frames = args.fps.map_or(1.0, |fps| f64::from(fps) / timing::MOHO_FPS);
-    let says = bytes.windows(5).any(|line| line == b"\nFPS ");
-    if Format::sniff(bytes) == Some(Format::Moho) && !says {
-        timing.stretch(1.0 / frames);
-    }
+fn times(args: &Args, to: Format) -> Result<String> {
+    let fps = args.fps.map_or(timing::MOHO_FPS, f64::from);
+    let mut timing = timing::read_at(&args.file, fps)?;
     if to == Format::Moho {
-        timing.stretch(frames);
+        timing.stretch(fps / timing::MOHO_FPS);
     }
     if let Some(name) = &args.tier {
         return timing::write_tier(&timing, to, name).map_err(|fault| fault.at(&args.file).of_the_call());

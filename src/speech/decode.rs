@@ -32,6 +32,10 @@ const AAC_DELAY: usize = 1024;
 /// milliseconds, and what is left out at the beginning may be 48 ms.
 const GAP: f64 = 0.06;
 
+/// Silence in place of what is missing: no more than was decoded before and this, in seconds. A damaged time stamp may
+/// lie hours ahead.
+const MOST_MISSING: f64 = 60.0;
+
 /// Samples that may be missing where an MP3 says how many it has, without a word: fewer than a frame.
 const MISSING: u64 = 1000;
 
@@ -115,6 +119,8 @@ struct Decoding {
     said: Option<u64>,
     /// How many packets could not be decoded, and when the first should have sounded.
     damaged: (usize, f64),
+    /// Silence in place of what is missing so far, in seconds.
+    silent: f64,
     /// Why the first of them could not.
     failed: Option<String>,
     warnings: Vec<String>,
@@ -139,6 +145,7 @@ impl Decoding {
                         delay: track.delay.unwrap_or(0) as usize,
                         said: track.num_frames,
                         damaged: (0, 0.0),
+                        silent: 0.0,
                         failed: None,
                         warnings: Vec::new(),
                     });
@@ -176,7 +183,9 @@ impl Decoding {
             if packet.track_id != self.track {
                 continue;
             }
-            self.fill(packet.pts.get())?;
+            if !self.fill(packet.pts.get())? {
+                return Ok(());
+            }
             match self.decoder.decode(&packet) {
                 Ok(buffer) => {
                     let (rate, channels) = (buffer.spec().rate(), buffer.spec().channels().count());
@@ -186,7 +195,11 @@ impl Decoding {
                     }
                 }
                 // Damage looks like anything, also like a feature that is not supported.
-                Err(error) => self.lose(packet.dur.get(), &error)?,
+                Err(error) => {
+                    if !self.lose(packet.dur.get(), &error)? {
+                        return Ok(());
+                    }
+                }
             }
         }
     }
@@ -212,20 +225,22 @@ impl Decoding {
         Ok(true)
     }
 
-    /// Silence where the time of the next packet lies behind what has been decoded.
-    fn fill(&mut self, time: i64) -> Result<()> {
+    /// Silence where the time of the next packet lies behind what has been decoded; false where that cannot be.
+    fn fill(&mut self, time: i64) -> Result<bool> {
         let origin = *self.origin.get_or_insert(time.max(0));
         let there = self.seconds();
         let due = self.in_seconds(time.saturating_sub(origin));
         if due > there + GAP && self.mixer.is_some() {
-            self.silence(due - there)?;
+            if !self.silence(due - there)? {
+                return Ok(false);
+            }
             self.damaged_at(there);
         }
-        Ok(())
+        Ok(true)
     }
 
-    /// Silence instead of a packet that could not be decoded.
-    fn lose(&mut self, duration: u64, error: &Error) -> Result<()> {
+    /// Silence instead of a packet that could not be decoded; false where it would be too much.
+    fn lose(&mut self, duration: u64, error: &Error) -> Result<bool> {
         let there = self.seconds();
         self.damaged_at(there);
         self.failed.get_or_insert_with(|| error.to_string());
@@ -243,12 +258,21 @@ impl Decoding {
         self.damaged.0 += 1;
     }
 
-    fn silence(&mut self, seconds: f64) -> Result<()> {
-        let Some((rate, mixer)) = &mut self.mixer else { return Ok(()) };
-        let frames = (seconds.max(0.0) * f64::from(*rate)).round();
+    /// Puts silence in place of what is missing; false, with a warning, where that is more than can be believed.
+    fn silence(&mut self, seconds: f64) -> Result<bool> {
+        let (seconds, there) = (seconds.max(0.0), self.seconds());
+        let Some((rate, mixer)) = &mut self.mixer else { return Ok(true) };
+        if self.silent + seconds > there - self.silent + MOST_MISSING {
+            self.warnings.push(format!(
+                "at {there:.2} s the file says that {seconds:.0} s are missing; it is damaged, and what follows is not used"
+            ));
+            return Ok(false);
+        }
+        self.silent += seconds;
+        let frames = (seconds * f64::from(*rate)).round();
         short_enough(mixer.frames() as u64 + frames as u64, *rate)?;
         mixer.silence(frames as usize);
-        Ok(())
+        Ok(true)
     }
 
     /// How much has been decoded.

@@ -54,8 +54,8 @@ pub struct Aligning {
     of: Standing,
     /// Whether the author asked for it.
     asked: bool,
-    /// The one that comes after it; a newer one takes its place.
-    next: Option<(usize, bool)>,
+    /// The one that comes after it, of which lesson; a newer one takes its place.
+    next: Option<(PathBuf, usize, bool)>,
 }
 
 /// What a search goes by.
@@ -117,7 +117,7 @@ fn start(state: &mut State, clip: usize, asked: bool) -> Option<Job> {
     let of = Standing::of(&lesson.clips[clip]);
     let (root, job) = (lesson.root.clone(), AlignJob::of(lesson, &[clip]));
     if let Some(now) = &mut state.aligning {
-        now.next = Some((clip, asked));
+        now.next = Some((root, clip, asked));
         state.say(format!("{name} is aligned next"));
         return None;
     }
@@ -140,21 +140,21 @@ fn start(state: &mut State, clip: usize, asked: bool) -> Option<Job> {
 
 /// Takes what a search has found; the job that waited for its end.
 pub(super) fn found(state: &mut State, root: &Path, found: Vec<(usize, Result<Alignment>)>) -> Option<Job> {
-    let Aligning { root: from, clip, of, asked, next } = state.aligning.take()?;
+    let Aligning { clip, of, asked, next, .. } = state.aligning.take_if(|now| now.root == root)?;
     // The author may have gone to another lesson in the meantime.
-    if from != root || state.lesson().is_none_or(|l| l.root != root) {
-        return None;
-    }
-    if found.is_empty() {
-        state.refuse("the search for the times broke off: please report what `lianpu align` says");
-    }
-    for (number, alignment) in found.into_iter().filter(|(n, _)| *n == clip) {
-        match alignment {
-            Ok(alignment) => take(state, number, &of, asked, &alignment),
-            Err(fault) => state.say_fault(&fault),
+    let is_open = |state: &State, root: &Path| state.lesson().is_some_and(|l| l.root == root);
+    if is_open(state, root) {
+        if found.is_empty() {
+            state.refuse("the search for the times broke off: please report what `lianpu align` says");
+        }
+        for (number, alignment) in found.into_iter().filter(|(n, _)| *n == clip) {
+            match alignment {
+                Ok(alignment) => take(state, number, &of, asked, &alignment),
+                Err(fault) => state.say_fault(&fault),
+            }
         }
     }
-    let (clip, asked) = next?;
+    let (_, clip, asked) = next.filter(|(root, ..)| is_open(state, root))?;
     start(state, clip, asked)
 }
 

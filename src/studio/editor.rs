@@ -1,8 +1,8 @@
 //! A clip on the desk: its built timeline, the cursor, what is selected and what is shown of it.
 
-use super::Lane;
 use super::tapping::Tapping;
 use super::window::Window;
+use super::{Lane, places};
 use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::project::{Clip, Lesson};
@@ -119,6 +119,10 @@ impl Editor {
         // Whole tenths, so that small edits do not move every curve on the screen.
         self.extent = ((low * 10.0 + 1e-6).floor() / 10.0, (high * 10.0 - 1e-6).ceil() / 10.0);
         self.select(&lesson.clips[self.clip]);
+        if !self.places.is_empty() {
+            // Where a syllable has come or has grown, there is no place for another.
+            self.places = places::free(&lesson.clips[self.clip], &self.places);
+        }
         if let Some(clip) = lesson.clips.get(self.clip)
             && self.syllable.is_some_and(|s| s >= clip.syllables.len())
         {
@@ -229,7 +233,7 @@ impl Editor {
     /// Whether a syllable's times are a guess that nobody has looked at.
     #[must_use]
     pub fn is_guessed(clip: &Clip, syllable: usize) -> bool {
-        clip.timing.guessed && !clip.score.pins.contains(&syllable)
+        clip.timing.guessed && clip.score.pins.binary_search(&syllable).is_err()
     }
 }
 

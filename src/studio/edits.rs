@@ -222,7 +222,7 @@ pub(super) fn take(state: &mut State, purpose: Purpose, text: &str) -> Result<()
             }
             Ok(())
         }
-        Purpose::Words { from } => places::take(state, from, text),
+        Purpose::Words => places::take(state, text),
         Purpose::Export | Purpose::Point => Ok(()),
     }
 }

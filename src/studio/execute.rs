@@ -260,7 +260,9 @@ fn leave(state: &mut State, by: Action) {
         return;
     }
     state.overlays.clear();
-    tap_desk::leave(state);
+    if !tap_desk::leave(state) {
+        return;
+    }
     if state.is_unsaved() {
         state.overlays.push(Overlay::Confirm(by));
         return;

@@ -88,11 +88,8 @@ pub enum Purpose {
         /// The time of the key of speech that it takes the place of.
         replaces: Option<f64>,
     },
-    /// Words for marked places, from one of them on.
-    Words {
-        /// The number of the place.
-        from: usize,
-    },
+    /// Words for marked places, from the one at the cursor on.
+    Words,
     /// An edit of a stretch of the record.
     Range {
         /// Seconds.

@@ -65,7 +65,7 @@ pub(super) fn found(state: &mut State, root: &Path, number: usize, heard: &Heard
 }
 
 /// The places that no syllable has, by rising time.
-fn free(clip: &Clip, heard: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(super) fn free(clip: &Clip, heard: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let taken = clip.intervals();
     let mut free = Vec::new();
     for (from, to) in heard {
@@ -95,14 +95,16 @@ pub(super) fn ask(state: &mut State) -> bool {
     let Some(from) = here(state) else { return false };
     let rest = state.editor.as_ref().map_or(0, |e| e.places.len() - from);
     let title = format!("Words from here on ({} left)", counted(rest, "place"));
-    edits::prompt(state, Purpose::Words { from }, title, HELP, String::new());
+    edits::prompt(state, Purpose::Words, title, HELP, String::new());
     true
 }
 
 const HELP: &str = "characters, Pinyin, Zhuyin or English: each syllable takes the next place; as many as you like";
 
-/// Lays typed words onto the places.
-pub(super) fn take(state: &mut State, from: usize, text: &str) -> Result<(), String> {
+/// Lays typed words onto the places, from the one at the cursor on.
+pub(super) fn take(state: &mut State, text: &str) -> Result<(), String> {
+    // A search that came to its end while the words were typed may have taken it.
+    let from = here(state).ok_or("a syllable lies here now: Esc, then m marks anew where others are heard")?;
     let (Some(editor), Some(lesson)) = (&state.editor, state.lesson()) else { return Ok(()) };
     let number = editor.clip;
     let places = editor.places.get(from..).unwrap_or_default().to_vec();
@@ -115,13 +117,15 @@ pub(super) fn take(state: &mut State, from: usize, text: &str) -> Result<(), Str
         return Ok(());
     }
     let laid = state.clip().map_or(0, |c| c.syllables.len()).saturating_sub(before);
-    let Some(editor) = &mut state.editor else { return Ok(()) };
-    editor.places.drain(from..from + laid);
-    let left = editor.places.len();
+    let Some(editor) = &state.editor else { return Ok(()) };
+    // Those that have a syllable now went with the change.
+    let until = places.get(laid.saturating_sub(1)).map_or(0.0, |p| p.1);
+    let next = editor.places.iter().position(|p| p.0 >= until - 1e-6);
+    let left = counted(editor.places.len(), "place");
     let words = counted(laid, "syllable");
-    if from < left {
-        go_to_place(state, from);
-        state.say(format!("{words} laid; Enter goes on here, {} left", counted(left, "place")));
+    if let Some(next) = next {
+        go_to_place(state, next);
+        state.say(format!("{words} laid; Enter goes on here, {left} left"));
     } else {
         state.say(format!("{words} laid; A finds their exact times in the sound"));
     }

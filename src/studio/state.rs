@@ -98,6 +98,13 @@ pub enum Hear {
         /// 1 is as it was spoken.
         speed: f64,
     },
+    /// Nothing yet: that is what will be heard next, to be made ready.
+    Soon {
+        /// Seconds.
+        from: f64,
+        /// 1 is as it was spoken.
+        speed: f64,
+    },
     /// Clicks at these times, in seconds.
     Clicks(Vec<f64>),
     /// Nothing more.

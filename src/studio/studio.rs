@@ -196,6 +196,7 @@ impl Studio {
         let sound = self.state.clip().and_then(|c| c.sound.clone());
         match (&self.voice, hear, sound) {
             (Some(voice), Hear::Clip { from, speed }, Some(sound)) => voice.play(sound, from, speed),
+            (Some(voice), Hear::Soon { from, speed }, Some(sound)) => voice.prepare(sound, from, speed),
             (Some(voice), Hear::Clicks(times), _) => voice.click(times),
             (Some(voice), ..) => voice.stop(),
             (None, ..) => {}

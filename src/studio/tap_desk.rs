@@ -46,7 +46,13 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
     let count = state.clip().map_or(0, |c| c.syllables.len());
     let tapping = state.editor.as_mut()?.tapping.as_mut()?;
     match action {
-        Action::TapStart => tapping.press(false, latency, count),
+        Action::TapStart => {
+            let was_ready = tapping.is_ready();
+            tapping.press(false, latency, count);
+            if was_ready {
+                state.hear = Some(Hear::Soon { from: tapping.from, speed: tapping.speed });
+            }
+        }
         Action::TapEnd => tapping.press(true, latency, count),
         Action::TapBack if tapping.back() => {
             state.hear = Some(Hear::Clip { from: tapping.at, speed: tapping.speed });
@@ -54,7 +60,11 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
         Action::TapSpeed | Action::TapNext(_) if !tapping.is_ready() => {
             state.say("that can be chosen before it begins: q keeps what was tapped, t goes on from there");
         }
-        Action::TapSpeed => tapping.speed = if tapping.speed < 1.0 { 1.0 } else { 0.5 },
+        Action::TapSpeed => {
+            tapping.speed = if tapping.speed < 1.0 { 1.0 } else { 0.5 };
+            // Slowing down takes its time: it begins before the count does.
+            state.hear = Some(Hear::Soon { from: tapping.from, speed: tapping.speed });
+        }
         Action::TapNext(by) => {
             let last = count.saturating_sub(1) as i32;
             tapping.next = (tapping.next as i32 + by).clamp(0, last) as usize;
@@ -64,7 +74,9 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
             state.hear = Some(Hear::Clicks(Tapping::flashes()));
         }
         Action::TapMeasure => state.say("measure before it begins"),
-        Action::TapKeep => return keep(state),
+        Action::TapKeep => {
+            keep(state);
+        }
         Action::TapDrop => {
             let many = tapping.taps.iter().filter(|t| !t.is_end).count();
             tapping.at = tapping.home;
@@ -138,21 +150,21 @@ fn close(state: &mut State) {
     }
 }
 
-/// Keeps what was tapped, as one change, and offers to find the rest.
-fn keep(state: &mut State) -> Option<Job> {
-    let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return None };
-    let tapping = editor.tapping.as_ref()?;
+/// Keeps what was tapped, as one change, and offers to find the rest; false where that cannot be, and the taps stay.
+fn keep(state: &mut State) -> bool {
+    let (Some(editor), Some(clip)) = (&state.editor, state.clip()) else { return true };
+    let Some(tapping) = &editor.tapping else { return true };
     let spoken = spoken(tapping, clip);
     if spoken.is_empty() {
         close(state);
         state.say("nothing was tapped");
-        return None;
+        return true;
     }
     let (first, count) = (spoken[0].0, spoken.len());
     match change_of(editor.clip, clip, &spoken) {
         Ok(change) => {
             if !super::edits::change(state, change) {
-                return None;
+                return false;
             }
             close(state);
             select(state, first);
@@ -162,10 +174,13 @@ fn keep(state: &mut State) -> Option<Job> {
                 many => format!("A finds the other {many} between them"),
             };
             state.say(format!("tapped {}; {offer}", counted(count, "syllable")));
+            true
         }
-        Err(why) => state.refuse(why),
+        Err(why) => {
+            state.refuse(why);
+            false
+        }
     }
-    None
 }
 
 fn select(state: &mut State, syllable: usize) {
@@ -178,17 +193,18 @@ fn select(state: &mut State, syllable: usize) {
     }
 }
 
-/// Leaves tapping where the studio or the clip is left: what was tapped is kept.
-pub(super) fn leave(state: &mut State) {
-    if state.editor.as_ref().is_some_and(|e| e.tapping.is_some()) {
-        keep(state);
-        close(state);
-    }
+/// Leaves tapping where the studio or the clip is left: what was tapped is kept. False where it cannot be: it would be
+/// lost, so it stays on the desk.
+pub(super) fn leave(state: &mut State) -> bool {
+    pause(state);
+    keep(state)
 }
 
 /// The tapped syllables with their starts and ends, by their numbers.
 fn spoken(tapping: &Tapping, clip: &Clip) -> Vec<(usize, f64, f64)> {
-    let round = |t: f64| (t * 1e4).round() / 1e4;
+    let duration = clip.duration();
+    // What is rounded up must not lie beyond the sound.
+    let round = |t: f64| ((t * 1e4).round() / 1e4).min(duration);
     let mut spoken: Vec<(usize, f64, Option<f64>)> = Vec::new();
     for tap in &tapping.taps {
         match (tap.is_end, spoken.last_mut()) {
@@ -203,7 +219,6 @@ fn spoken(tapping: &Tapping, clip: &Clip) -> Vec<(usize, f64, f64)> {
         }
     }
     let sounding = clip.sound.as_ref().map(|s| s.sounding()).unwrap_or_default();
-    let duration = clip.duration();
     let ended = |(syllable, start, end): (usize, f64, Option<f64>)| {
         // What nothing ends goes on as long as there is sound.
         let until = sounding.iter().find(|(from, to)| *from < start + 0.1 && start + SHORTEST < *to).map(|(_, to)| *to);
@@ -223,12 +238,14 @@ fn spoken(tapping: &Tapping, clip: &Clip) -> Vec<(usize, f64, f64)> {
 fn change_of(number: usize, clip: &Clip, spoken: &[(usize, f64, f64)]) -> Result<Change, String> {
     let before: Vec<(f64, f64)> = clip.intervals().iter().map(|i| (i.start, i.end)).collect();
     let mut after = before.clone();
+    let mut tapped = vec![false; after.len()];
     for (syllable, start, end) in spoken {
         if let Some(times) = after.get_mut(*syllable) {
             *times = (*start, *end);
+            tapped[*syllable] = true;
         }
     }
-    let is_tapped = |i: usize| spoken.iter().any(|s| s.0 == i);
+    let is_tapped = |i: usize| tapped[i];
     let mut at = 0;
     while at < after.len() {
         if is_tapped(at) {
@@ -254,7 +271,7 @@ fn change_of(number: usize, clip: &Clip, spoken: &[(usize, f64, f64)]) -> Result
         edits.push(Edit::Times { clip: number, first, before, after });
     }
     for index in 0..after.len() {
-        let was = clip.score.pins.contains(&index);
+        let was = clip.score.pins.binary_search(&index).is_ok();
         // Nobody vouches for what had to give way.
         let is = is_tapped(index) || was && !moved(&index);
         if was != is {
@@ -285,7 +302,8 @@ fn give_way(times: &mut [(f64, f64)], low: f64, high: f64) -> Result<(), ()> {
             (new_from, new_to) = ((high - wanted).max(low), high);
         }
     }
-    let scale = (new_to - new_from) / (to - from);
+    // Syllables that take no time at all cannot be drawn out.
+    let scale = if to - from > 1e-9 { (new_to - new_from) / (to - from) } else { 0.0 };
     let least_scaled = times.iter().map(|t| (t.1 - t.0) * scale).fold(f64::INFINITY, f64::min);
     let count = times.len() as f64;
     for (index, time) in times.iter_mut().enumerate() {
@@ -364,5 +382,11 @@ mod tests {
         assert_eq!(given(0.0, 0.5), Ok([(1000.0, 2333.0), (2333.0, 5000.0)]));
         assert_eq!(given(1.0, 1.05), Ok([(10000.0, 10250.0), (10250.0, 10500.0)]));
         assert_eq!(given(1.0, 1.03), Err(()));
+        let mut none = [(1.0, 1.0), (1.0, 1.0)];
+        assert_eq!(give_way(&mut none, 2.0, 3.0), Ok(()));
+        assert_eq!(
+            none.map(|(a, b)| ((a * 1e4_f64).round(), (b * 1e4_f64).round())),
+            [(20000.0, 20200.0), (20200.0, 20400.0)]
+        );
     }
 }

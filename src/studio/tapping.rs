@@ -154,7 +154,8 @@ impl Tapping {
                 if let Phase::Counting(left) = &mut self.phase {
                     *left -= seconds;
                     if *left <= 0.0 {
-                        self.at -= *left * self.speed;
+                        // The sound begins when this is seen, however late that is.
+                        self.at = self.from;
                         self.phase = Phase::Running;
                         return Passed::Begun;
                     }

@@ -1,12 +1,14 @@
 //! Sound to hear, by a player program that is there: the clip while its syllables are tapped, and the clicks of a
 //! measurement. Over a network the player would sound at the wrong end, so there is none.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::thread;
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
+use tempfile::NamedTempFile;
 
 use crate::speech::Sound;
 
@@ -33,6 +35,7 @@ pub(super) struct Voice {
 
 #[derive(Debug)]
 enum Order {
+    Prepare { sound: Arc<Sound>, from: f64, speed: f64 },
     Play { sound: Arc<Sound>, from: f64, speed: f64 },
     Clicks(Vec<f64>),
     Silence,
@@ -56,6 +59,11 @@ impl Voice {
         Self { orders }
     }
 
+    /// Makes ready what will be played next, so that it then begins at once.
+    pub fn prepare(&self, sound: Arc<Sound>, from: f64, speed: f64) {
+        self.order(Order::Prepare { sound, from, speed });
+    }
+
     /// Plays a recording from a time in seconds on; at half speed its pitch stays.
     pub fn play(&self, sound: Arc<Sound>, from: f64, speed: f64) {
         self.order(Order::Play { sound, from, speed });
@@ -77,9 +85,10 @@ impl Voice {
     }
 }
 
-/// Serves orders until nobody gives any.
+/// Serves orders until nobody gives any. Each ends what is heard.
 fn serve(program: &Path, options: &[&str], orders: &Receiver<Order>) {
-    let mut playing: Option<(Child, tempfile::NamedTempFile)> = None;
+    let mut playing: Option<(Child, NamedTempFile)> = None;
+    let mut ready: Option<Ready> = None;
     let mut next = orders.recv().ok();
     while let Some(order) = next {
         if let Some((mut child, _file)) = playing.take() {
@@ -88,12 +97,22 @@ fn serve(program: &Path, options: &[&str], orders: &Receiver<Order>) {
         }
         // Of several orders that wait the last one counts.
         let order = orders.try_iter().last().unwrap_or(order);
-        let wave = match order {
-            Order::Play { sound, from, speed } => wave(sound.rate, &slowed(&sound, from, speed)),
-            Order::Clicks(times) => wave(CLICK_RATE, &clicks(&times)),
+        let file = match order {
+            Order::Prepare { sound, from, speed } => {
+                if ready.as_ref().is_none_or(|r| r.from != from || !r.has(&sound, from, speed)) {
+                    drop(ready.take());
+                    ready = Some(Ready::of(sound, from, speed));
+                }
+                None
+            }
+            Order::Play { sound, from, speed } => {
+                ready = ready.filter(|r| r.has(&sound, from, speed));
+                ready.get_or_insert_with(|| Ready::of(sound, from, speed)).file_from(from)
+            }
+            Order::Clicks(times) => written(CLICK_RATE, &coded(&clicks(&times))),
             Order::Silence => None,
         };
-        playing = wave.and_then(|wave| begin(program, options, &wave));
+        playing = file.and_then(|file| Some((begin(program, options, file.path())?, file)));
         next = orders.recv().ok();
     }
     if let Some((mut child, _file)) = playing {
@@ -102,29 +121,69 @@ fn serve(program: &Path, options: &[&str], orders: &Receiver<Order>) {
     }
 }
 
-fn begin(program: &Path, options: &[&str], wave: &[u8]) -> Option<(Child, tempfile::NamedTempFile)> {
-    let file = tempfile::Builder::new().prefix("lianpu-").suffix(".wav").tempfile().ok()?;
-    std::fs::write(file.path(), wave).ok()?;
-    let mut command = Command::new(program);
-    command.args(options).arg(file.path());
-    let child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()?;
-    Some((child, file))
+/// A recording made ready to be played, slowed down where it has to be: when the clock of the taps starts there is no
+/// time left for that.
+struct Ready {
+    sound: Arc<Sound>,
+    from: f64,
+    speed: f64,
+    /// Samples as they stand in the file.
+    coded: Vec<u8>,
+    /// The file of all of them, until it is played.
+    file: Option<NamedTempFile>,
 }
 
-/// Samples as a WAV file of 16 bits; none where they are more than such a file can hold.
-fn wave(rate: u32, samples: &[f32]) -> Option<Vec<u8>> {
-    let size = u32::try_from(samples.len() * 2).ok()?;
-    let mut bytes = Vec::with_capacity(samples.len() * 2 + 44);
-    bytes.extend(b"RIFF");
-    bytes.extend(size.checked_add(36)?.to_le_bytes());
-    bytes.extend(b"WAVEfmt \x10\0\0\0\x01\0\x01\0");
-    bytes.extend(rate.to_le_bytes());
-    bytes.extend((rate * 2).to_le_bytes());
-    bytes.extend(b"\x02\0\x10\0data");
-    bytes.extend(size.to_le_bytes());
+impl Ready {
+    fn of(sound: Arc<Sound>, from: f64, speed: f64) -> Self {
+        let coded = coded(&slowed(&sound, from, speed));
+        let file = written(sound.rate, &coded);
+        Self { sound, from, speed, coded, file }
+    }
+
+    /// Whether it has that sound at that speed from a time on, either to its end or for long.
+    fn has(&self, sound: &Arc<Sound>, from: f64, speed: f64) -> bool {
+        let until = self.from.max(0.0) + MOST;
+        let is_enough = until >= sound.duration() || until - from >= MOST / 2.0;
+        Arc::ptr_eq(&self.sound, sound) && self.speed == speed && self.from <= from && is_enough
+    }
+
+    /// The file to play from a time on.
+    fn file_from(&mut self, from: f64) -> Option<NamedTempFile> {
+        let whole = self.file.take();
+        let skipped = ((from - self.from).max(0.0) / self.speed * f64::from(self.sound.rate)).round() as usize;
+        if skipped == 0 && whole.is_some() {
+            return whole;
+        }
+        written(self.sound.rate, self.coded.get(2 * skipped..).unwrap_or_default())
+    }
+}
+
+fn begin(program: &Path, options: &[&str], file: &Path) -> Option<Child> {
+    let mut command = Command::new(program);
+    command.args(options).arg(file);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+}
+
+/// Samples of 16 bits.
+fn coded(samples: &[f32]) -> Vec<u8> {
     let whole = |s: &f32| ((s.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16).to_le_bytes();
-    bytes.extend(samples.iter().flat_map(whole));
-    Some(bytes)
+    samples.iter().flat_map(whole).collect()
+}
+
+/// A WAV file of samples of 16 bits; none where they are more than such a file can hold.
+fn written(rate: u32, samples: &[u8]) -> Option<NamedTempFile> {
+    let size = u32::try_from(samples.len()).ok()?;
+    let mut head = Vec::with_capacity(44);
+    head.extend(b"RIFF");
+    head.extend(size.checked_add(36)?.to_le_bytes());
+    head.extend(b"WAVEfmt \x10\0\0\0\x01\0\x01\0");
+    head.extend(rate.to_le_bytes());
+    head.extend((rate * 2).to_le_bytes());
+    head.extend(b"\x02\0\x10\0data");
+    head.extend(size.to_le_bytes());
+    let mut file = tempfile::Builder::new().prefix("lianpu-").suffix(".wav").tempfile().ok()?;
+    file.write_all(&head).and_then(|()| file.write_all(samples)).ok()?;
+    Some(file)
 }
 
 /// A recording from a time on; at half speed by overlapping windows that are put where they fit best (WSOLA: Verhelst
@@ -139,6 +198,8 @@ fn slowed(sound: &Sound, from: f64, speed: f64) -> Vec<f32> {
     }
     let hop = ((WINDOW / 2.0 * rate) as usize).max(1);
     let search = hop / 2;
+    // Voices are told apart by what lies below 2 kHz, whatever the rate.
+    let (apart, step_by) = ((sound.rate as usize / 4000).max(1), (sound.rate as usize / 8000).max(1));
     let length = (samples.len() as f64 / speed) as usize;
     let mut out = vec![0.0_f32; length + 2 * hop];
     let at = |i: usize| samples.get(i).copied().unwrap_or(0.0);
@@ -150,9 +211,10 @@ fn slowed(sound: &Sound, from: f64, speed: f64) -> Vec<f32> {
         } else {
             // What would go on by itself after the last window is what the next should be like.
             let natural = taken + hop;
-            let likeness = |start: usize| (0..hop).step_by(4).map(|i| at(natural + i) * at(start + i)).sum::<f32>();
-            let candidates = (ideal.saturating_sub(search)..=ideal + search).step_by(2);
-            candidates.max_by(|a, b| likeness(*a).total_cmp(&likeness(*b))).unwrap_or(ideal)
+            let likeness = |start: usize| (0..hop).step_by(apart).map(|i| at(natural + i) * at(start + i)).sum::<f32>();
+            let candidates = (ideal.saturating_sub(search)..=ideal + search).step_by(step_by);
+            let measured = candidates.map(|start| (likeness(start), start));
+            measured.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(ideal, |(_, start)| start)
         };
         for i in 0..2 * hop {
             let window = 0.5 - 0.5 * (std::f32::consts::TAU * i as f32 / (2 * hop) as f32).cos();
@@ -220,9 +282,17 @@ mod tests {
         until(1);
         voice.click(vec![0.1]);
         until(2);
+        let sound = Arc::new(Sound::new(8000, vec![0.1; 8000]));
+        voice.prepare(Arc::clone(&sound), 0.0, 0.5);
+        thread::sleep(std::time::Duration::from_millis(50));
+        assert_eq!(lines(), 2, "nothing is heard yet");
+        voice.play(Arc::clone(&sound), 0.0, 0.5);
+        until(3);
+        voice.play(sound, 0.25, 0.5);
+        until(4);
         voice.stop();
         let text = std::fs::read_to_string(&seen).unwrap();
         let sizes: Vec<usize> = text.lines().map(|l| l.trim().parse().unwrap()).collect();
-        assert_eq!(sizes, [44 + 8000, 44 + 2 * 9600]);
+        assert_eq!(sizes, [44 + 8000, 44 + 2 * 9600, 44 + 32_000, 44 + 24_000]);
     }
 }

@@ -198,6 +198,11 @@ impl FromStr for Format {
 /// With the line and what was found there: anything that is not the format, intervals that overlap or run backwards,
 /// times that are no numbers, negative or beyond [`super::MAX_SECONDS`], a file that ends too soon.
 pub fn parse(bytes: &[u8], format: Format) -> Result<Timing> {
+    parse_at(bytes, format, moho::FPS)
+}
+
+/// `fps` is the rate of a Moho file that does not say it.
+fn parse_at(bytes: &[u8], format: Format, fps: f64) -> Result<Timing> {
     let text = decode::text(bytes)?;
     match format {
         Format::TextGrid | Format::TextGridShort => textgrid::parse(&text),
@@ -211,7 +216,7 @@ pub fn parse(bytes: &[u8], format: Format) -> Result<Timing> {
         Format::RhubarbTsv => rhubarb::parse_tsv(&text),
         Format::RhubarbJson => rhubarb::parse_json(&text),
         Format::RhubarbXml => rhubarb::parse_xml(&text),
-        Format::Moho => moho::parse(&text),
+        Format::Moho => moho::parse(&text, fps),
     }
 }
 
@@ -220,13 +225,21 @@ pub fn parse(bytes: &[u8], format: Format) -> Result<Timing> {
 /// # Errors
 /// As [`parse`], with the file's path; also when it cannot be read or its format cannot be told.
 pub fn read(path: &Path) -> Result<Timing> {
+    read_at(path, moho::FPS)
+}
+
+/// The same, where a Moho file that does not say its rate has `fps` frames a second, a number above 0.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_at(path: &Path, fps: f64) -> Result<Timing> {
     let bytes = disk::read_bytes(path, MAX_TEXT_BYTES)?;
     let format = Format::sniff(&bytes).or_else(|| Format::from_path(path)).ok_or_else(|| {
         Fault::new("neither its name nor its content says which timing format it is")
             .at(path)
             .help(format!("the formats are {}", Format::ALL.map(Format::name).join(", ")))
     })?;
-    parse(&bytes, format).map_err(|fault| fault.at(path))
+    parse_at(&bytes, format, fps).map_err(|fault| fault.at(path))
 }
 
 /// Makes sure that a format can hold something of these times.

@@ -23,7 +23,7 @@ mod shapes;
 mod textgrid;
 mod tiers;
 
-pub use format::{Format, parse, read, writable, write, write_tier};
+pub use format::{Format, parse, read, read_at, writable, write, write_tier};
 pub use guess::equal_shares;
 pub use matching::{Parting, common, first_parting, fitting_tier, match_labels};
 pub use moho::FPS as MOHO_FPS;

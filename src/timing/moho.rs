@@ -1,8 +1,8 @@
 //! Switch data of Moho, as Papagayo, Rhubarb and OpenToonz know it: `MohoSwitch1`, then a line `frame shape` wherever
 //! the mouth changes. Frames count from 1. Shapes are Preston Blair's, or Rhubarb's letters; see [`super::shapes`].
 //!
-//! The file does not say how many frames there are in a second: 24 are taken, as these programs do, unless a line
-//! `FPS n` says otherwise, which Synfig wants. Written are 24. Times are those of frames.
+//! The file does not say how many frames there are in a second: 24 are taken, as these programs do, unless
+//! the caller knows better or a line `FPS n` says otherwise, which Synfig wants. Written are 24. Times are those of frames.
 
 use super::clock::number;
 use super::shapes::{Cues, Naming, TIER, tiled};
@@ -15,14 +15,14 @@ pub const FPS: f64 = 24.0;
 /// The first line.
 pub(super) const HEADER: &str = "MohoSwitch1";
 
-pub(super) fn parse(text: &str) -> Result<Timing> {
+/// `fps` is taken where the file does not say it.
+pub(super) fn parse(text: &str, mut fps: f64) -> Result<Timing> {
     let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     if !lines.next().is_some_and(|(_, first)| first.eq_ignore_ascii_case(HEADER)) {
         return Err(Fault::new(format!("the file does not begin with `{HEADER}`"))
             .line(1)
             .help("is it another format?"));
     }
-    let mut fps = FPS;
     let mut rows: Vec<(usize, f64, &str)> = Vec::new();
     for (line, row) in lines.filter(|(_, row)| !row.is_empty()) {
         let Some((frame, shape)) = row.split_once(char::is_whitespace) else {

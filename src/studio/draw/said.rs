@@ -38,14 +38,17 @@ pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, c
     let crowded = clip.syllables.iter().zip(clip.intervals()).filter(|(_, i)| inside(i)).any(needs_all);
     let mut last_end = -1;
     let mut any_guessed = false;
+    // Both lists rise.
+    let mut unsure = doubts.iter().filter_map(|d| d.syllable).peekable();
     for (index, (syllable, interval)) in clip.syllables.iter().zip(clip.intervals()).enumerate() {
+        let is_unsure = unsure.next_if_eq(&index).is_some();
         let (start, end) = (window.column(interval.start, columns), window.column(interval.end, columns));
         if end < 0 || start >= i32::from(columns) {
             continue;
         }
         let chosen = editor.syllable == Some(index);
         let guessed = Editor::is_guessed(clip, index);
-        let doubtful = !guessed && doubts.iter().any(|d| d.syllable == Some(index));
+        let doubtful = !guessed && is_unsure;
         let row = layout.said;
         let at = |column: i32| row.x + column.clamp(0, i32::from(columns)) as u16;
         let line = if crowded && index % 2 == 1 { Modifier::UNDERLINED } else { Modifier::empty() };
