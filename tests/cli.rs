@@ -138,7 +138,7 @@ fn a_lesson_that_cannot_be_made_leaves_nothing_behind() {
     std::fs::write(at("silence.wav"), "RIFF").unwrap();
     fails(&["new", &at("a"), "--speech", &speech, "--script", &at("ambiguous.txt")], 1, "--from");
     fails(&["new", &at("b"), "--speech", &at("silence.wav"), "--script", &at("ambiguous.txt")], 1, "silence.wav");
-    fails(&["new", &at("c"), "--speech", &speech], 2, "--script");
+    fails(&["new", &at("c"), "--script", &at("ambiguous.txt")], 2, "recording");
     fails(&["new", &at("d")], 2, "--ratios");
     let left: Vec<String> = files(folder.path()).into_iter().map(|f| f.0).collect();
     assert_eq!(left, ["ambiguous.txt", "silence.wav"]);

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::output_fault;
 use super::times::{Row, json, seconds, table};
 use crate::disk::{Fault, Result, read_text, write_whole};
-use crate::project::{AlignJob, Clip, Lesson};
+use crate::project::{AlignJob, Clip, Lesson, tiers_of};
 use crate::script::{self, Syllable, System};
 use crate::speech::{self, Alignment, Note, Sound, Take};
 use crate::timing::{self, Format, Interval, Tier, Timing};
@@ -18,16 +18,16 @@ use crate::timing::{self, Format, Interval, Tier, Timing};
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The lesson; its clips that have no times of their own yet.
-    #[arg(value_name = "PROJECT", required_unless_present = "speech", conflicts_with_all = ["speech", "script", "from"])]
+    #[arg(value_name = "PROJECT", conflicts_with_all = ["speech", "script", "from"])]
     project: Option<PathBuf>,
-    /// One clip of the lesson, whatever times it has.
+    /// One clip of the lesson, whatever times it has: those not set in the studio are found anew.
     #[arg(long, requires = "project")]
     clip: Option<String>,
     /// A recording instead of a lesson.
     #[arg(long, value_name = "FILE")]
     speech: Option<PathBuf>,
     /// What is said in it.
-    #[arg(long, value_name = "FILE", requires = "speech", required_unless_present_any = ["project", "without_script"])]
+    #[arg(long, value_name = "FILE", requires = "speech")]
     script: Option<PathBuf>,
     /// How the script is written; told from the text where left out.
     #[arg(long, value_name = "SYSTEM")]
@@ -56,9 +56,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             marks(&sound, args, out)
         }
         (None, Some(speech)) => in_files(speech, args, out),
-        (None, None) => {
-            Err(Fault::new("there is nothing to align").help("name a lesson, or --speech FILE").of_the_call())
-        }
+        (None, None) => Err(Fault::new("there is nothing to align")
+            .help("name a lesson, or give --speech FILE --script FILE")
+            .of_the_call()),
     }
 }
 
@@ -89,6 +89,12 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let chosen =
         args.clip.as_deref().map(|name| lesson.clip_named(Some(name))).transpose().map_err(Fault::of_the_call)?;
     if args.without_script {
+        if chosen.is_none() && lesson.clips.len() > 1 {
+            let names: Vec<&str> = lesson.clips.iter().map(|c| c.entry.name.as_str()).collect();
+            return Err(Fault::new("the lesson has several clips")
+                .help(format!("name one by --clip: {}", names.join(", ")))
+                .of_the_call());
+        }
         let number = chosen.map_or_else(|| lesson.clip_named(None), Ok)?;
         let clip = &lesson.clips[number];
         let sound = clip
@@ -100,7 +106,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     if let Some(why) = lesson.read_only.clone().filter(|_| args.out.is_none()) {
         return Err(Fault::new(format!("the times cannot be kept: {why}"))
             .at(project)
-            .help("close it there, or give --out FILE"));
+            .help("open it where it can be written, or give --out FILE"));
     }
     if lesson.is_unsaved() {
         return Err(Fault::new("the lesson has changes that were never saved")
@@ -111,34 +117,32 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         Some(number) => vec![number],
         None => wanted(&lesson),
     };
+    if wanted.is_empty() && spoken_clips(&lesson).is_empty() {
+        eprintln!("note: no clip has both a recording and a script, so there is nothing to align");
+    }
     let mut failed: Vec<(String, Fault)> = Vec::new();
     let mut aligned = Vec::new();
-    // Clips of one face are one voice: all at once, so that they help each other.
-    for group in by_face(&lesson, &wanted) {
-        for number in &group {
-            if let Some(sound) = &lesson.clips[*number].sound {
-                warn(sound);
-            }
-        }
-        for (number, found) in AlignJob::of(&lesson, &group)?.run() {
-            let name = lesson.clips[number].entry.name.clone();
-            match found {
-                Ok(found) => {
-                    for note in notes(&found) {
-                        eprintln!("note: clip {name}: {note}");
-                    }
-                    match lesson.aligned(number, &found) {
-                        Some(change) if args.out.is_none() => lesson.change(change)?,
-                        Some(_) => lesson.take_alignment(number, &found),
-                        None => {}
-                    }
-                    aligned.push(number);
+    for sound in wanted.iter().filter_map(|n| lesson.clips[*n].sound.as_deref()) {
+        warn(sound);
+    }
+    for (number, found) in AlignJob::of(&lesson, &wanted)?.run() {
+        let name = lesson.clips[number].entry.name.clone();
+        match found {
+            Ok(found) => {
+                for note in notes(&found) {
+                    eprintln!("note: clip {name}: {note}");
                 }
-                Err(fault) => failed.push((name, fault)),
+                match lesson.aligned(number, &found) {
+                    Some(change) if args.out.is_none() => lesson.change(change)?,
+                    Some(_) => lesson.take_alignment(number, &found),
+                    None => {}
+                }
+                aligned.push(number);
             }
+            Err(fault) => failed.push((name, fault)),
         }
     }
-    if args.out.is_none() {
+    if args.out.is_none() && lesson.is_unsaved() {
         lesson.save()?;
     }
     if args.json || args.out.is_some() {
@@ -192,18 +196,6 @@ fn spoken_clips(lesson: &Lesson) -> Vec<usize> {
     lesson.clips.iter().enumerate().filter(|(_, c)| spoken(c)).map(|(n, _)| n).collect()
 }
 
-fn by_face(lesson: &Lesson, clips: &[usize]) -> Vec<Vec<usize>> {
-    let face = |n: usize| lesson.manifest.face_of(&lesson.clips[n].entry).map(|f| f.name.clone());
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for number in clips {
-        match groups.iter_mut().find(|g| face(g[0]) == face(*number)) {
-            Some(group) => group.push(*number),
-            None => groups.push(vec![*number]),
-        }
-    }
-    groups
-}
-
 fn summary(clip: &Clip) -> String {
     let count = clip.syllables.len();
     let mut line = format!("clip {}: {count} syllable{} found", clip.entry.name, if count == 1 { "" } else { "s" });
@@ -231,21 +223,26 @@ fn notes(found: &Alignment) -> impl Iterator<Item = &Note> {
 /// The tiers of an alignment outside a lesson.
 fn tiers(text: &str, syllables: &[Syllable], found: &Alignment, duration: f64) -> Timing {
     let mut timing = Timing { duration, ..Timing::default() };
-    let mut tier = Tier::new("syllables");
-    let mut phones = Tier::new("phones");
-    for (syllable, spoken) in syllables.iter().zip(&found.syllables) {
-        tier.intervals.push(Interval::new(spoken.start, spoken.end, syllable.text.clone()));
-        phones.intervals.extend(spoken.phones.iter().map(|p| Interval::new(p.start, p.end, p.phone)));
+    let labels: Vec<String> = syllables.iter().map(|s| s.text.clone()).collect();
+    for tier in tiers_of(text, syllables, &labels, found) {
+        timing.set_tier(tier);
     }
-    let mut words = Tier::new("words");
-    for word in script::written_words(text, syllables) {
-        let (first, last) = (&tier.intervals[word.syllables.start], &tier.intervals[word.syllables.end - 1]);
-        words.intervals.push(Interval::new(first.start, last.end, word.text));
-    }
-    timing.set_tier(words);
-    timing.set_tier(tier);
-    timing.set_tier(phones);
     timing
+}
+
+/// The format that a file's name ends in; a TextGrid without an ending.
+fn format_of(path: &Path) -> Result<Format> {
+    match (Format::from_path(path), path.extension()) {
+        (Some(format), _) => Ok(format),
+        (None, None) => Ok(Format::TextGrid),
+        (None, Some(ending)) => {
+            let known: Vec<&str> = Format::ALL.iter().map(|f| f.extension()).collect();
+            Err(Fault::new(format!("`{}` is the ending of no timing format", ending.to_string_lossy()))
+                .at(path)
+                .help(format!("endings: {}", known.join(", ")))
+                .of_the_call())
+        }
+    }
 }
 
 /// Writes rows or times to where they were asked for.
@@ -253,8 +250,10 @@ fn give(rows: &[Row], timing: impl Fn() -> Timing, args: &Args, out: &mut dyn Wr
     let text = if args.json {
         json(rows)?
     } else if let Some(path) = &args.out {
-        let format = Format::from_path(path).unwrap_or(Format::TextGrid);
-        timing::write(&timing(), format)
+        let format = format_of(path)?;
+        let timing = timing();
+        timing::writable(&timing, format).map_err(Fault::of_the_call)?;
+        timing::write(&timing, format)
     } else {
         table(rows)
     };
@@ -291,7 +290,7 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
         tier.intervals.extend(numbered.map(|(i, (a, b))| Interval::new(*a, *b, (i + 1).to_string())));
         let mut timing = Timing { duration: sound.duration(), ..Timing::default() };
         timing.set_tier(tier);
-        timing::write(&timing, Format::from_path(path).unwrap_or(Format::TextGrid))
+        timing::write(&timing, format_of(path)?)
     } else {
         marks.iter().map(|m| format!("{:8.3} {:8.3}  {}\n", m.start, m.end, m.kind)).collect()
     };
@@ -304,17 +303,15 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
 /// Finds the times that a lesson lacks, in memory only, for a command that reads it; what it did is said.
 pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
     let wanted: Vec<usize> = clips.iter().copied().filter(|n| lesson.clips[*n].wants_alignment()).collect();
-    for group in by_face(lesson, &wanted) {
-        let Ok(job) = AlignJob::of(lesson, &group) else { continue };
-        for (number, found) in job.run() {
-            let name = lesson.clips[number].entry.name.clone();
-            match found {
-                Ok(found) => {
-                    lesson.take_alignment(number, &found);
-                    eprintln!("note: the times of clip {name} were found in its sound; `lianpu align` keeps them");
-                }
-                Err(fault) => eprintln!("note: the times of clip {name} are guessed: {fault}"),
+    let Ok(job) = AlignJob::of(lesson, &wanted) else { return };
+    for (number, found) in job.run() {
+        let name = lesson.clips[number].entry.name.clone();
+        match found {
+            Ok(found) => {
+                lesson.take_alignment(number, &found);
+                eprintln!("note: the times of clip {name} were found in its sound; `lianpu align` keeps them");
             }
+            Err(fault) => eprintln!("note: the times of clip {name} are guessed: {fault}"),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::output_fault;
 use crate::disk::{Fault, Result};
-use crate::project::{Finding, check, quality};
+use crate::project::{Finding, check, check_quality};
 
 /// Say what lessons have, lack, and have wrong. Exit code 1 if anything is wrong.
 #[derive(Debug, clap::Args)]
@@ -28,11 +28,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         if !args.json {
             writeln!(out, "{}", project.display()).map_err(output_fault)?;
         }
-        let mut findings = check(project);
-        if args.quality {
-            findings.extend(quality(project));
-        }
-        for finding in findings {
+        for finding in if args.quality { check_quality(project) } else { check(project) } {
             let (kind, text) = match &finding {
                 Finding::Fine(text) => ("fine", text.clone()),
                 Finding::Odd(text) => ("odd", text.clone()),

@@ -86,6 +86,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 None if clip.score.aligned.is_some() => say("its times were found in the sound".into())?,
                 None => {}
             }
+            if clip.sound.is_some() && clip.syllables.is_empty() {
+                say("what is said in it is not known yet: in the studio m marks its syllables, Enter types words onto them".into())?;
+            }
             if clip.timing.guessed {
                 say("the times of its syllables are guessed: equal shares of the sound, until you move them".into())?;
             }

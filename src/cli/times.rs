@@ -54,10 +54,13 @@ impl Row {
 
     /// What a lesson has of a clip, from its tiers.
     pub(super) fn of_clip(clip: &Clip, named: bool) -> Vec<Self> {
-        let doubts = clip.doubts();
+        let mut unheard: Vec<usize> = clip.doubts().iter().filter(|d| !d.heard).filter_map(|d| d.syllable).collect();
+        unheard.sort_unstable();
         let phones = clip.timing.tier("phones").map(|t| t.intervals.as_slice()).unwrap_or_default();
         let row = |(i, (syllable, interval)): (usize, (&Syllable, &Interval))| {
-            let middle = |p: &&Interval| (interval.start..interval.end).contains(&f64::midpoint(p.start, p.end));
+            let middle = |p: &Interval| f64::midpoint(p.start, p.end);
+            let from = phones.partition_point(|p| middle(p) < interval.start);
+            let own = phones[from..].iter().take_while(|p| middle(p) < interval.end);
             let phone =
                 |p: &Interval| PhoneRow { phone: p.label.clone(), start: seconds(p.start), end: seconds(p.end) };
             Self {
@@ -67,8 +70,8 @@ impl Row {
                 start: seconds(interval.start),
                 end: seconds(interval.end),
                 confidence: clip.confidence(i),
-                not_heard: doubts.iter().any(|d| d.syllable == Some(i) && !d.heard),
-                phones: phones.iter().filter(middle).map(phone).collect(),
+                not_heard: unheard.binary_search(&i).is_ok(),
+                phones: own.map(phone).collect(),
             }
         };
         clip.syllables.iter().zip(clip.intervals()).enumerate().map(row).collect()

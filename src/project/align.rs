@@ -14,16 +14,17 @@ use crate::script::{self, Syllable};
 use crate::speech::{self, Alignment, Note, Pin, Sound, Take};
 use crate::timing::{Interval, Tier, Timing};
 
-/// As much sound of the same speaker's other clips is listened to as well, in seconds. The gain of pooling grows little
-/// after a minute of speech.
-const POOLED: f64 = 120.0;
+/// Clips of one face are listened to together, as many in the manifest's order as have so much sound, in seconds: the
+/// gain of pooling grows little after a minute of speech, and a lesson of hours need not be heard for one clip of it.
+const TOGETHER: f64 = 300.0;
 
 /// Clips to be aligned, apart from their lesson.
 #[derive(Debug, Clone)]
 pub struct AlignJob {
-    /// Those that are wanted first, then others of the same speaker.
-    takes: Vec<OwnTake>,
-    wanted: usize,
+    /// Takes of one speaker each.
+    groups: Vec<Vec<OwnTake>>,
+    /// The clips that are asked for; the others help to learn the voice.
+    wanted: Vec<usize>,
 }
 
 #[derive(Debug, Clone)]
@@ -42,48 +43,52 @@ impl OwnTake {
 }
 
 impl AlignJob {
-    /// What it takes to align these clips, all with the same face; other clips of that face help to learn the voice.
+    /// What it takes to align these clips. Other clips of the same face help to learn the voice: always the same
+    /// ones, so that what is found in a clip does not depend on which others are asked for.
     ///
     /// # Errors
     /// When one of them has no sound or no script.
     pub fn of(lesson: &Lesson, wanted: &[usize]) -> Result<Self> {
-        let mut takes = Vec::new();
-        for number in wanted {
-            let Some(clip) = lesson.clips.get(*number) else { continue };
-            let take = OwnTake::of(*number, clip).ok_or_else(|| {
-                let lacks = if clip.sound.is_none() { "recording" } else { "script" };
-                let file = if clip.sound.is_none() { "speech.wav" } else { "script.txt" };
-                Fault::new(format!("the clip `{}` has no {lacks} to align", clip.entry.name))
-                    .at(&clip.folder)
-                    .help(format!("put it there as {file}"))
-            })?;
-            takes.push(take);
+        for clip in wanted.iter().filter_map(|n| lesson.clips.get(*n)) {
+            let lacks = match (&clip.sound, clip.syllables.is_empty()) {
+                (None, _) => ("recording", "speech.wav"),
+                (_, true) => ("script", "script.txt"),
+                _ => continue,
+            };
+            return Err(Fault::new(format!("the clip `{}` has no {} to align", clip.entry.name, lacks.0))
+                .at(&clip.folder)
+                .help(format!("put it there as {}", lacks.1)));
         }
-        let faces: Vec<_> = takes.iter().map(|t| face_of(lesson, t.clip)).collect();
-        let wanted = takes.len();
-        let mut sound = 0.0;
+        let mut groups: Vec<(Option<&str>, f64, Vec<OwnTake>)> = Vec::new();
         for (number, clip) in lesson.clips.iter().enumerate() {
-            if takes.iter().any(|t| t.clip == number) || !faces.contains(&face_of(lesson, number)) {
-                continue;
-            }
-            if let Some(take) = OwnTake::of(number, clip) {
-                sound += take.sound.duration();
-                if sound > POOLED {
-                    break;
+            let Some(take) = OwnTake::of(number, clip) else { continue };
+            let (face, length) = (face_of(lesson, number), take.sound.duration());
+            // The last group of a face is the one that is still filled. Without a face nobody knows whose voice it is.
+            let open = groups.iter_mut().rev().find(|g| face.is_some() && g.0 == face);
+            match open.filter(|g| g.1 + length <= TOGETHER) {
+                Some(group) => {
+                    group.1 += length;
+                    group.2.push(take);
                 }
-                takes.push(take);
+                None => groups.push((face, length, vec![take])),
             }
         }
-        Ok(Self { takes, wanted })
+        let asked = |group: &Vec<OwnTake>| group.iter().any(|t| wanted.contains(&t.clip));
+        Ok(Self { groups: groups.into_iter().map(|g| g.2).filter(asked).collect(), wanted: wanted.to_vec() })
     }
 
     /// Aligns them. Each wanted clip's number comes with what was found, or why nothing was.
     #[must_use]
     pub fn run(&self) -> Vec<(usize, Result<Alignment>)> {
-        let takes: Vec<Take<'_>> =
-            self.takes.iter().map(|t| Take { sound: &t.sound, script: &t.script, pins: &t.pins }).collect();
-        let numbers = self.takes.iter().map(|t| t.clip);
-        numbers.zip(speech::align(&takes)).take(self.wanted).collect()
+        let mut found = Vec::new();
+        for group in &self.groups {
+            let takes: Vec<Take<'_>> =
+                group.iter().map(|t| Take { sound: &t.sound, script: &t.script, pins: &t.pins }).collect();
+            found.extend(group.iter().map(|t| t.clip).zip(speech::align(&takes)));
+        }
+        found.retain(|(clip, _)| self.wanted.contains(clip));
+        found.sort_by_key(|(clip, _)| *clip);
+        found
     }
 }
 
@@ -101,15 +106,8 @@ impl Lesson {
         if before == after {
             return None;
         }
-        let mut edits = Vec::new();
-        // Pins that were carried over from an older script.
-        for pin in clip.pins() {
-            if !clip.score.pins.contains(&pin.syllable) {
-                edits.push(Edit::Pin { clip: number, index: pin.syllable, pinned: true });
-            }
-        }
-        edits.push(Edit::Timing { clip: number, before: Box::new(before), after: Box::new(after) });
-        Some(Change { label: format!("{} aligned", counted(alignment.syllables.len())), edits })
+        let edit = Edit::Timing { clip: number, before: Box::new(before), after: Box::new(after) };
+        Some(Change::one(format!("{} aligned", counted(alignment.syllables.len())), edit))
     }
 
     /// Gives a clip the times that were found, in memory only: for an export of a lesson that has never been aligned.
@@ -126,16 +124,25 @@ fn counted(syllables: usize) -> String {
     if syllables == 1 { "1 syllable".into() } else { format!("{syllables} syllables") }
 }
 
-/// The tiers of an alignment. The labels of syllables stay as they are; tiers that this program does not write stay.
+/// What a clip has once the times that were found are its own. The labels of syllables stay as they are, and so do
+/// tiers that this program does not write.
 fn timing_of(clip: &Clip, alignment: &Alignment) -> Timing {
     let mut timing = Timing { guessed: false, ..clip.timing.clone() };
-    let labels = clip.intervals();
-    let mut syllables = Tier::new("syllables");
+    let labels: Vec<String> = clip.intervals().iter().map(|i| i.label.clone()).collect();
+    for tier in tiers_of(&clip.script, &clip.syllables, &labels, alignment) {
+        timing.set_tier(tier);
+    }
+    timing
+}
+
+/// The tiers of an alignment: words, syllables under their labels, phones, and how sure each syllable is.
+#[must_use]
+pub fn tiers_of(script: &str, syllables: &[Syllable], labels: &[String], alignment: &Alignment) -> [Tier; 4] {
+    let mut tier = Tier::new("syllables");
     let mut phones = Tier::new("phones");
     let mut confidence = Tier::new(CONFIDENCE);
-    for (i, found) in alignment.syllables.iter().enumerate() {
-        let label = labels.get(i).map_or_else(String::new, |l| l.label.clone());
-        syllables.intervals.push(Interval::new(found.start, found.end, label));
+    for (found, label) in alignment.syllables.iter().zip(labels) {
+        tier.intervals.push(Interval::new(found.start, found.end, label.clone()));
         phones.intervals.extend(found.phones.iter().map(|p| Interval::new(p.start, p.end, p.phone)));
         let sure = format!("{:.2}", found.confidence);
         let label = if found.heard { sure } else { format!("{sure} {NOT_HEARD}") };
@@ -146,11 +153,19 @@ fn timing_of(clip: &Clip, alignment: &Alignment) -> Timing {
             lay_between(&mut confidence, *start, *end);
         }
     }
-    let words = clip.words(&syllables);
-    for tier in [words, syllables, phones, confidence] {
-        timing.set_tier(tier);
+    [words(script, syllables, &tier), tier, phones, confidence]
+}
+
+/// Words in time: what the script writes without a space or mark between.
+fn words(script: &str, syllables: &[Syllable], times: &Tier) -> Tier {
+    let mut tier = Tier::new("words");
+    for word in script::written_words(script, syllables) {
+        let at = &times.intervals;
+        if let (Some(first), Some(last)) = (at.get(word.syllables.start), at.get(word.syllables.end - 1)) {
+            tier.intervals.push(Interval::new(first.start, last.end, word.text));
+        }
     }
-    timing
+    tier
 }
 
 /// Puts a stretch that the script does not have into the gap it lies in, as far as there is room.
@@ -171,21 +186,12 @@ impl Clip {
             let interval = self.intervals().get(*p)?;
             Some(Pin { syllable: *p, start: interval.start, end: interval.end })
         });
-        let mut pins: Vec<Pin> = if self.carried.is_empty() { own.collect() } else { self.carried.clone() };
-        pins.retain(|p| p.syllable < self.syllables.len() && p.end > p.start);
-        pins
+        own.filter(|p| p.syllable < self.syllables.len() && p.end > p.start).collect()
     }
 
-    /// Words in time: what the script writes without a space or mark between.
+    /// Its words in time.
     pub(super) fn words(&self, syllables: &Tier) -> Tier {
-        let mut tier = Tier::new("words");
-        for word in script::written_words(&self.script, &self.syllables) {
-            let at = &syllables.intervals;
-            if let (Some(first), Some(last)) = (at.get(word.syllables.start), at.get(word.syllables.end - 1)) {
-                tier.intervals.push(Interval::new(first.start, last.end, word.text));
-            }
-        }
-        tier
+        words(&self.script, &self.syllables, syllables)
     }
 
     /// What the times were made from: a checksum of the sound and the script. None without a sound.
@@ -200,6 +206,7 @@ impl Clip {
             hash.update(&bytes);
         }
         hash.update(self.script.trim().as_bytes());
+        hash.update(format!("{:?}", self.entry.script_system).as_bytes());
         Some(format!("{:08x}", hash.finalize()))
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::doubts::CONFIDENCE;
 use super::said::Said;
+use super::times::OWN_TIERS;
 use super::{Clip, LessonFace};
 use crate::disk::{Fault, Result};
 use crate::face::{Face, FeaturePoint, How, Placed};
@@ -225,7 +226,8 @@ impl Edit {
                 if !same_times(&clip.timing, &before.timing) || clip.score.aligned != before.aligned {
                     return Err(stale());
                 }
-                clip.timing = after.timing.clone();
+                in_order(after.timing.syllables().unwrap_or(&Tier::default()))?;
+                take_own(&mut clip.timing, &after.timing);
                 clip.score.aligned.clone_from(&after.aligned);
                 clip.read_labels();
                 Ok(())
@@ -336,8 +338,36 @@ pub(super) fn same_times(a: &Timing, b: &Timing) -> bool {
         && a.iter().zip(&b).all(|(a, b)| a.label == b.label && near(a.start, b.start) && near(a.end, b.end))
 }
 
+/// Gives a clip the tiers that this program writes, from others. Everybody else's stay as they are now.
+pub(super) fn take_own(timing: &mut Timing, from: &Timing) {
+    let is_own = |t: &&Tier| OWN_TIERS.contains(&t.name.as_str());
+    timing.tiers.retain(|t| !is_own(&t));
+    for tier in from.tiers.iter().filter(is_own) {
+        timing.set_tier(tier.clone());
+    }
+    timing.guessed = from.guessed;
+}
+
+/// Makes sure that syllables follow each other: what does not could be written and not read again.
+pub(super) fn in_order(tier: &Tier) -> Result<()> {
+    let mut edge = 0.0;
+    for interval in tier.spoken() {
+        let rises = interval.start >= edge - 1e-6 && interval.end >= interval.start && interval.end.is_finite();
+        if !rises {
+            return Err(Fault::new(format!(
+                "`{}` cannot be said from {:.3} to {:.3} s, where the one before ends at {edge:.3} s",
+                interval.label, interval.start, interval.end
+            ))
+            .help("syllables follow each other"));
+        }
+        edge = interval.end;
+    }
+    Ok(())
+}
+
 /// Moves what lies in or ends with syllables along with them: an edge at a syllable's edge stays there, one inside
-/// keeps its share of the syllable. Turning the edit round brings everything back.
+/// keeps its share of the syllable. Turning the edit round brings it back. What stands between syllables gives way to
+/// them for good.
 fn follow(tier: &mut Tier, before: &[(f64, f64)], after: &[(f64, f64)]) {
     const NEAR: f64 = 2e-6;
     let moved = |t: f64, is_start: bool| {
@@ -345,7 +375,9 @@ fn follow(tier: &mut Tier, before: &[(f64, f64)], after: &[(f64, f64)]) {
         let holds = |(from, to): &(f64, f64)| {
             if is_start { *from - NEAR <= t && t < *to - NEAR } else { *from + NEAR < t && t <= *to + NEAR }
         };
-        let place = before.iter().position(holds)?;
+        // Syllables rise, so the one that may hold a time is the last that starts before it, or the one before that.
+        let after_it = before.partition_point(|(from, _)| *from <= t + NEAR);
+        let place = (after_it.saturating_sub(2)..after_it).find(|p| holds(&before[*p]))?;
         let ((a, b), (c, d)) = (before[place], after[place]);
         Some(c + ((t - a) / (b - a)).clamp(0.0, 1.0) * (d - c))
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Clip, LessonFace, MANIFEST, Manifest, figures};
+use super::{Clip, LessonFace, MANIFEST, Manifest, figures, quality};
 use crate::disk::{Fault, read_bytes};
 use crate::face::{FeaturePoint, How};
 use crate::figure::Figure;
@@ -27,6 +27,16 @@ pub enum Finding {
 /// Checks the lesson in `root`, every clip for itself, so that one damaged file does not hide the rest.
 #[must_use]
 pub fn check(root: &Path) -> Vec<Finding> {
+    find(root, |_| Vec::new())
+}
+
+/// The same, with how good the recordings are and every place of their times that deserves a look.
+#[must_use]
+pub fn check_quality(root: &Path) -> Vec<Finding> {
+    find(root, quality::of_clip)
+}
+
+fn find(root: &Path, more: impl Fn(&Clip) -> Vec<Finding>) -> Vec<Finding> {
     let manifest = match Manifest::read(root) {
         Ok(manifest) => manifest,
         Err(fault) => return vec![Finding::Wrong(fault)],
@@ -45,7 +55,7 @@ pub fn check(root: &Path) -> Vec<Finding> {
     }
     for entry in &manifest.clips {
         match Clip::read(root, entry) {
-            Ok(clip) => found.extend(of_clip(&clip)),
+            Ok(clip) => found.extend(of_clip(&clip).into_iter().chain(more(&clip))),
             Err(fault) => found.push(Finding::Wrong(fault)),
         }
     }

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use super::change::Times;
 use super::label::label_reading;
 use super::manifest::ClipEntry;
-use super::times::{of_shapes, phones_of};
+use super::times::{OWN_TIERS, of_shapes, phones_of};
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
-use crate::speech::{Pin, Sound};
+use crate::speech::Sound;
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Interval, Tier, Timing};
 
@@ -45,8 +45,6 @@ pub struct Clip {
     pub warnings: Vec<String>,
     /// Checksums of the files that saving writes, as they were read.
     pub(super) seen: Seen,
-    /// What a hand had set, where the script has changed since: by the syllables of the script as it is now.
-    pub(super) carried: Vec<Pin>,
     /// The script's own syllables, before labels gave other readings.
     pub(super) plain: Vec<Syllable>,
     /// The script as its file has it, or as the labels of the timing gave it.
@@ -95,7 +93,6 @@ impl Clip {
             score: Score::default(),
             warnings: Vec::new(),
             seen: Seen::default(),
-            carried: Vec::new(),
             plain: Vec::new(),
             kept_script: String::new(),
             sound_seconds: 0.0,
@@ -127,8 +124,7 @@ impl Clip {
                 clip.seen.timing = super::save::checksum(&path);
                 let timing = timing::read(&path)?;
                 if clip.is_of_an_older_script(&timing) {
-                    clip.carry_pins(&timing);
-                    clip.guess();
+                    clip.carry_over(timing);
                     clip.warnings.push(
                         "the script has changed since its times were found: `lianpu align` finds them anew".into(),
                     );
@@ -149,12 +145,14 @@ impl Clip {
         Ok(clip)
     }
 
-    /// Shares the sound among the syllables.
+    /// Shares the sound among the syllables; tiers of something else stay.
     pub(super) fn guess(&mut self) {
         let labels: Vec<String> = self.plain.iter().map(|s| s.text.clone()).collect();
         let duration = if self.sound_seconds > 0.0 { self.sound_seconds } else { 0.3 * labels.len() as f64 };
         let sounding = self.sound.as_deref().map(Sound::sounding).unwrap_or_default();
-        self.timing = Timing { duration, tiers: Vec::new(), guessed: !labels.is_empty() };
+        self.timing.tiers.retain(|t| !OWN_TIERS.contains(&t.name.as_str()));
+        self.timing.duration = self.timing.duration.max(duration);
+        self.timing.guessed = !labels.is_empty();
         if !labels.is_empty() {
             self.timing.set_tier(timing::equal_shares(&sounding, &labels, duration));
         }
@@ -214,7 +212,7 @@ impl Clip {
         let phones = self.timing.tier("phones");
         let spoken = |(syllable, interval): (&Syllable, &Interval)| {
             let times = phones.and_then(|tier| phones_of(tier, syllable, interval)).unwrap_or_default();
-            let starts = script::onsets_in_phones(syllable, &times, onsets);
+            let starts = script::onsets_in_phones(syllable, (interval.start, interval.end), &times, onsets);
             let shapes = starts.into_iter().zip(syllable.shapes.iter().copied()).collect();
             Spoken { start: interval.start, end: interval.end, shapes, exact: !times.is_empty() }
         };

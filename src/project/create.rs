@@ -75,11 +75,6 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
             .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, or --ratios FILE")
             .of_the_call());
     }
-    if new.speech.is_some() && new.script.is_none() && new.timing.is_none() {
-        return Err(Fault::new("a recording needs its script")
-            .help("give --script FILE with what is said")
-            .of_the_call());
-    }
     if new.script.is_some() && !has_clip {
         return Err(Fault::new("a script needs its recording, or its times")
             .help("give --speech FILE, or leave --script out for now")
@@ -133,7 +128,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
     // files, not the draft's.
     let mut lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(&f, new))?;
-    if lesson.clips.iter().any(|c| c.sound.is_some() && c.syllables.is_empty()) {
+    if new.script.is_some() && lesson.clips.iter().any(|c| c.syllables.is_empty()) {
         let fault = Fault::new("there is nothing to say in the script").help("write what is said in the recording");
         return Err(match &new.script {
             Some(path) => fault.at(path),

@@ -53,7 +53,7 @@ impl Clip {
             Some(Doubt { start: interval.start, end: interval.end, syllable: Some(i), confidence, heard })
         });
         let beside = self.timing.tier(CONFIDENCE).into_iter().flat_map(|t| &t.intervals);
-        let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT);
+        let beside = beside.filter(|i| i.label == NOT_IN_SCRIPT && i.end > i.start);
         let beside = beside.map(|i| Doubt { start: i.start, end: i.end, syllable: None, confidence: 0.0, heard: true });
         let mut doubts: Vec<Doubt> = unsure.chain(beside).collect();
         doubts.sort_by(|a, b| a.start.total_cmp(&b.start));

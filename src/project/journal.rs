@@ -5,7 +5,10 @@ use std::io::Write;
 use std::path::Path;
 
 use super::Change;
-use crate::disk::{Fault, MAX_TEXT_BYTES, Result, read_bytes, write_whole};
+use crate::disk::{Fault, Result, read_bytes, write_whole};
+
+/// The largest journal that is read: hundreds of changes to all the times of an hour.
+const LARGEST: u64 = 2 << 30;
 
 #[derive(Debug)]
 pub(super) struct Journal {
@@ -19,7 +22,7 @@ impl Journal {
         if !path.is_file() {
             return Ok(Vec::new());
         }
-        let bytes = read_bytes(path, MAX_TEXT_BYTES)?;
+        let bytes = read_bytes(path, LARGEST)?;
         Ok(bytes.split(|b| *b == b'\n').map_while(|line| serde_json::from_slice(line).ok()).collect())
     }
 

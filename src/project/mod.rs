@@ -21,9 +21,9 @@ mod quality;
 mod save;
 mod times;
 
-pub use align::AlignJob;
+pub use align::{AlignJob, tiers_of};
 pub use change::{Change, Edit, Spot, Times};
-pub use check::{Finding, check};
+pub use check::{Finding, check, check_quality};
 pub use clip::{Clip, LABEL_LIMIT};
 pub use create::{Made, NewLesson, create};
 pub use doubts::Doubt;
@@ -32,5 +32,4 @@ pub use history::History;
 pub use lesson::{Lesson, projects_in};
 pub(crate) use manifest::check_output;
 pub use manifest::{ClipEntry, FaceEntry, LayerEntry, MANIFEST, Manifest, Output};
-pub use quality::quality;
 pub use said::Said;

@@ -1,17 +1,9 @@
 //! How good a lesson is where nothing is wrong: its recordings, and the times that deserve a look.
 
-use std::path::Path;
+use super::{Clip, Finding};
 
-use super::{Clip, Finding, Lesson};
-
-/// Judges the lesson in `root`; nothing where it cannot be read, which is for [`super::check`] to say.
-#[must_use]
-pub fn quality(root: &Path) -> Vec<Finding> {
-    let Ok(lesson) = Lesson::read(root) else { return Vec::new() };
-    lesson.clips.iter().flat_map(of_clip).collect()
-}
-
-fn of_clip(clip: &Clip) -> Vec<Finding> {
+/// Judges a clip: its recording, and each place of its times that deserves a look.
+pub(super) fn of_clip(clip: &Clip) -> Vec<Finding> {
     let name = &clip.entry.name;
     let mut found = Vec::new();
     if let Some(sound) = &clip.sound {

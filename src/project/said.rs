@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::change::{Times, same_times, stale};
+use super::change::{Times, in_order, same_times, stale, take_own};
+use super::doubts::{CONFIDENCE, NOT_IN_SCRIPT};
 use super::label::label_fits;
 use super::{Change, Clip, Edit, Lesson};
 use crate::disk::{Fault, Result, clean_line};
@@ -46,9 +47,10 @@ impl Clip {
         let none = Tier::new("syllables");
         let tier = after.times.timing.syllables().unwrap_or(&none);
         timing::match_labels(&plain, tier, label_fits, |s| s.text.clone())?;
+        in_order(tier)?;
         self.plain = plain;
         self.script.clone_from(&after.script);
-        self.timing = after.times.timing.clone();
+        take_own(&mut self.timing, &after.times.timing);
         self.score.aligned.clone_from(&after.times.aligned);
         self.score.pins.clone_from(&after.pins);
         self.read_labels();
@@ -95,6 +97,12 @@ impl Lesson {
             ))
             .help("type fewer"));
         }
+        if let Some(before) = at.checked_sub(1).and_then(|i| clip.intervals().get(i))
+            && before.end > first.0 + 1e-6
+        {
+            return Err(Fault::new(format!("`{}` is said until {:.2} s", before.label, before.end))
+                .help("go to a place after it, or mark the places anew"));
+        }
         let mut later = clip.clone();
         later.script = inserted(clip, at, &text);
         later.plain = read(&later.script, clip.system())?;
@@ -108,15 +116,19 @@ impl Lesson {
         tier.intervals = clip.intervals().to_vec();
         let laid = places.iter().zip(&later.plain[at..]).map(|(p, s)| Interval::new(p.0, p.1, s.text.clone()));
         tier.intervals.splice(at..at, laid);
-        if later.timing.tier("syllables").is_none() {
-            later.timing.tiers.clear();
-        }
         later.timing.duration = clip.duration();
         later.timing.guessed = clip.timing.guessed && !clip.syllables.is_empty();
         later.timing.set_tier(tier.clone());
         later.read_labels();
         let words = later.words(&tier);
         later.timing.set_tier(words);
+        // What was laid is what was said beside the script.
+        if let Some(tier) = later.timing.tier_mut(CONFIDENCE) {
+            tier.intervals.retain(|i| i.label != NOT_IN_SCRIPT || i.end <= first.0 || i.start >= last.1);
+        }
+        if later.score.aligned.is_some() {
+            later.score.aligned = later.fingerprint();
+        }
         later.score.pins = clip.score.pins.iter().map(|p| if *p >= at { p + own } else { *p }).collect();
         let edit = Edit::Said { clip: number, before: Box::new(clip.said()), after: Box::new(later.said()) };
         let shown: String = text.chars().take(SHOWN).collect();

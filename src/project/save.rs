@@ -94,49 +94,58 @@ impl LessonFace {
 }
 
 impl Clip {
+    /// Writes what differs, once it is sure that none of the files was changed by something else: script, times and
+    /// score belong together.
     pub(super) fn save(&mut self) -> Result<Vec<PathBuf>> {
-        let mut written: Vec<PathBuf> = self.save_script()?.into_iter().collect();
-        // Guesses are made anew from the sound, so they are not written until something of the tier was set by hand.
+        let path = |name: &str| self.folder.join(name);
+        let (script, times, score) = (path("script.txt"), path("timing.TextGrid"), path("score.toml"));
+        let said = self.script_to_write();
+        // Guesses are made anew from the sound, so they are not written until something of the tier was set by hand, or
+        // they take the place of times that were there.
         let labels_set = self.intervals().iter().zip(&self.syllables).any(|(i, s)| i.label != s.text);
-        if !self.timing.guessed || !self.score.pins.is_empty() || labels_set {
+        let is_set = !self.timing.guessed || !self.score.pins.is_empty() || labels_set;
+        if is_set || self.seen.timing.is_some() {
             self.score.guessed = self.timing.guessed && self.score.pins.len() < self.syllables.len();
-            if !self.intervals().is_empty() {
-                let text = timing::write(&self.timing, Format::TextGrid);
-                written.extend(write_changed(self.folder.join("timing.TextGrid"), &text, &mut self.seen.timing)?);
+        }
+        let has_times = (is_set || self.seen.timing.is_some()) && !self.timing.tiers.is_empty();
+        let timing = has_times.then(|| timing::write(&self.timing, Format::TextGrid));
+        let set = (self.score != Score::default() || score.exists()).then(|| self.score.to_toml());
+        for (path, text, seen) in
+            [(&script, &said, self.seen.script), (&times, &timing, self.seen.timing), (&score, &set, self.seen.score)]
+        {
+            if let Some(text) = text {
+                unchanged(path, text, seen)?;
             }
         }
-        let path = self.folder.join("score.toml");
-        if self.score != Score::default() || path.exists() {
-            written.extend(write_changed(path, &self.score.to_toml(), &mut self.seen.score)?);
+        let mut written = Vec::new();
+        if let Some(text) = said {
+            if text.is_empty() && self.seen.script.is_some() && checksum(&script) == self.seen.script {
+                remove(&script)?;
+                self.seen.script = None;
+                written.push(script);
+            } else if !text.is_empty() {
+                written.extend(write_changed(script, &text, &mut self.seen.script)?);
+            }
+            self.kept_script.clone_from(&self.script);
+        }
+        if let Some(text) = timing {
+            written.extend(write_changed(times, &text, &mut self.seen.timing)?);
+        } else if self.seen.timing.is_some() && checksum(&times) == self.seen.timing {
+            // Times of nothing; only what this program wrote, or has read as it is.
+            remove(&times)?;
+            self.seen.timing = None;
+        }
+        if let Some(text) = set {
+            written.extend(write_changed(score, &text, &mut self.seen.score)?);
         }
         Ok(written)
     }
-}
 
-/// `script.txt`, where words were laid into it or taken out again.
-impl Clip {
-    fn save_script(&mut self) -> Result<Option<PathBuf>> {
-        if self.script == self.kept_script {
-            return Ok(None);
-        }
-        let path = self.folder.join("script.txt");
-        let written =
-            if self.script.trim().is_empty() && self.seen.script.is_some() && checksum(&path) == self.seen.script {
-                remove(&path)?;
-                self.seen.script = None;
-                // Times of nothing; only what this program wrote, or has read as it is.
-                let times = self.folder.join("timing.TextGrid");
-                if self.intervals().is_empty() && self.seen.timing.is_some() && checksum(&times) == self.seen.timing {
-                    remove(&times)?;
-                    self.seen.timing = None;
-                }
-                Some(path)
-            } else {
-                let line = format!("{}\n", self.script.trim_end());
-                write_changed(path, &line, &mut self.seen.script)?
-            };
-        self.kept_script.clone_from(&self.script);
-        Ok(written)
+    /// The text of `script.txt` where words were laid into the script or taken out again; empty where none is left.
+    fn script_to_write(&self) -> Option<String> {
+        let text = self.script.trim_end();
+        let line = if text.is_empty() { String::new() } else { format!("{text}\n") };
+        (self.script != self.kept_script).then_some(line)
     }
 }
 
@@ -149,21 +158,27 @@ pub(super) fn checksum(path: &Path) -> Option<u32> {
     std::fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes))
 }
 
+/// Makes sure that nobody else has changed a file since it was read or written last.
+fn unchanged(path: &Path, text: &str, seen: Option<u32>) -> Result<()> {
+    match checksum(path) {
+        Some(now) if Some(now) != seen && now != crc32fast::hash(text.as_bytes()) => {
+            Err(Fault::new("the file was changed by something else since the lesson was opened, and is left as it is")
+                .at(path)
+                .help("move it aside and save again to keep yours, or leave without saving and open the lesson again"))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Writes a text where the file differs from it, unless somebody else has changed the file meanwhile.
 fn write_changed(path: PathBuf, text: &str, seen: &mut Option<u32>) -> Result<Option<PathBuf>> {
-    let (now, new) = (checksum(&path), crc32fast::hash(text.as_bytes()));
-    if now == Some(new) {
-        *seen = now;
+    unchanged(&path, text, *seen)?;
+    let new = Some(crc32fast::hash(text.as_bytes()));
+    if checksum(&path) == new {
+        *seen = new;
         return Ok(None);
     }
-    if now.is_some() && now != *seen {
-        return Err(Fault::new(
-            "the file was changed by something else since the lesson was opened, and is left as it is",
-        )
-        .at(&path)
-        .help("move it aside and save again to keep yours, or leave without saving and open the lesson again"));
-    }
     write_whole(&path, text.as_bytes())?;
-    *seen = Some(new);
+    *seen = new;
     Ok(Some(path))
 }

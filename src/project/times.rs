@@ -2,13 +2,19 @@
 //! tiers of phones and shapes mean for the mouth.
 
 use super::Clip;
+use super::doubts::CONFIDENCE;
 use super::label::label_fits;
 use crate::disk::{Fault, Result};
 use crate::pose::MouthShape;
 use crate::script::{self, Syllable, System};
-use crate::speech::Pin;
 use crate::timeline::Spoken;
 use crate::timing::{self, Interval, Tier, Timing};
+
+/// The tiers that an alignment writes; all others are somebody else's.
+pub(super) const OWN_TIERS: [&str; 4] = ["words", "syllables", "phones", CONFIDENCE];
+
+/// A syllable needs at least this long to be said, in seconds.
+const LEAST_ROOM: f64 = 0.05;
 
 impl Clip {
     /// Checks times against the script and takes them.
@@ -21,15 +27,14 @@ impl Clip {
             .help("shapes: m f h a i u e o n, and h' for h"));
         }
         let Some(tier) = self.syllable_tier(&timing).cloned() else {
-            let Some(shapes) = timing.shapes().cloned() else {
+            if timing.shapes().is_none() {
                 let names: Vec<&str> = timing.tiers.iter().map(|t| t.name.as_str()).collect();
                 return Err(Fault::new("there is no tier `syllables`")
                     .help(format!("name the tier with the syllables so; its tiers are {}", names.join(", "))));
-            };
+            }
             // Shapes alone, as other programs of lip movement write them.
+            self.timing = timing;
             self.guess();
-            self.timing.duration = self.timing.duration.max(timing.duration);
-            self.timing.set_tier(shapes);
             return Ok(());
         };
         if self.plain.is_empty() && self.script.is_empty() {
@@ -43,11 +48,14 @@ impl Clip {
             Ok(()) => syllables.intervals = tier.spoken().cloned().collect(),
             Err(fault) => {
                 syllables.intervals = self.shared_out(&tier).ok_or(fault)?;
-                timing.guessed = true;
+                self.warnings.push(format!(
+                    "its times are those of words or phrases (tier `{}`), which their syllables share; `lianpu align` with `--clip {}` finds them in the sound",
+                    tier.name, self.entry.name
+                ));
             }
         }
         // The tier of syllables may have any name in a file; here it has its own. Words and phrases stay beside it.
-        if tier.name != "syllables" && !timing.guessed {
+        if tier.name != "syllables" && syllables.intervals.len() == tier.spoken().count() {
             timing.tiers.retain(|t| t.name != tier.name);
         }
         timing.set_tier(syllables);
@@ -103,18 +111,42 @@ impl Clip {
         parts && self.score.aligned.is_some() && self.score.aligned != self.fingerprint()
     }
 
-    /// Keeps what a hand has set for the syllables that the new script still has.
-    pub(super) fn carry_pins(&mut self, timing: &Timing) {
-        let Some(tier) = timing.syllables() else { return };
-        let labels: Vec<&Interval> = tier.spoken().collect();
-        for (old, new) in timing::common(&self.plain, &labels, |s, i| label_fits(s, &i.label)) {
-            if self.score.pins.binary_search(&new).is_ok() {
-                let interval = labels[new];
-                self.carried.push(Pin { syllable: old, start: interval.start, end: interval.end });
+    /// Takes times that were found for an older script: what a hand has set stays where the script still has it, the rest
+    /// is shared out between. The checksum stays what it was, so that the change of the script is still seen.
+    pub(super) fn carry_over(&mut self, timing: Timing) {
+        let labels: Vec<Interval> = timing.syllables().map(|t| t.spoken().cloned().collect()).unwrap_or_default();
+        let same = timing::common(&self.plain, &labels, |s, i| label_fits(s, &i.label));
+        let set = same.into_iter().filter(|(_, old)| self.score.pins.binary_search(old).is_ok());
+        let mut kept: Vec<(usize, Interval)> = set.map(|(new, old)| (new, labels[old].clone())).collect();
+        self.timing = timing;
+        self.guess();
+        let (count, duration) = (self.plain.len(), self.timing.duration);
+        let room = |from: f64, to: f64, syllables: usize| to - from >= LEAST_ROOM * syllables as f64;
+        // Syllables between two that stay need room; where there is none the later one goes.
+        let (mut edge, mut next) = (0.0, 0);
+        kept.retain(|(place, interval)| {
+            let fits = room(edge, interval.start, place - next) && interval.end > interval.start;
+            if fits {
+                (edge, next) = (interval.end, place + 1);
             }
+            fits
+        });
+        while kept.last().is_some_and(|(place, i)| !room(i.end, duration, count - 1 - place)) {
+            kept.pop();
         }
-        self.score.pins.clear();
-        self.score.aligned = None;
+        self.score.pins = kept.iter().map(|k| k.0).collect();
+        let Some(tier) = self.timing.tier_mut("syllables").filter(|_| !kept.is_empty()) else { return };
+        let (mut edge, mut next) = (0.0, 0);
+        for (place, interval) in kept.into_iter().chain([(count, Interval::new(duration, duration, ""))]) {
+            let share = (interval.start - edge) / (place - next).max(1) as f64;
+            for (k, between) in tier.intervals[next..place].iter_mut().enumerate() {
+                (between.start, between.end) = (edge + share * k as f64, edge + share * (k + 1) as f64);
+            }
+            if let Some(own) = tier.intervals.get_mut(place) {
+                *own = Interval { label: interval.label, ..interval };
+            }
+            (edge, next) = (interval.end, place + 1);
+        }
     }
 }
 

@@ -124,13 +124,19 @@ impl Timing {
         self.tier("shapes")
     }
 
-    /// What subtitles are made of: the words, else the syllables, else the first tier; one with nothing in it only
-    /// where all are so.
+    /// What formats of one tier are made of: the words where they are words, else the syllables, else the first tier;
+    /// one with nothing in it only where all are so. Where a script is written without spaces its words are whole
+    /// phrases, and the syllables say more.
     #[must_use]
     pub fn subtitles(&self) -> Option<&Tier> {
+        const LONGEST: usize = 5;
         let says = |tier: &&Tier| !tier.intervals.is_empty();
-        let known = self.tier("words").filter(says).or_else(|| self.syllables().filter(says));
-        known.or_else(|| self.tiers.iter().find(says)).or_else(|| self.tiers.first())
+        let syllables = self.syllables().filter(says);
+        let count = syllables.map_or(0, |t| t.intervals.len());
+        // Words of Mandarin have two syllables in the mean, and rarely four.
+        let are_words = |tier: &&Tier| 2 * count <= LONGEST * tier.intervals.len();
+        let words = self.tier("words").filter(says).filter(are_words);
+        words.or(syllables).or_else(|| self.tiers.iter().find(says)).or_else(|| self.tiers.first())
     }
 
     /// Puts a tier in the place of the one of its name, or where it belongs: words, syllables, phones, shapes,

@@ -43,6 +43,23 @@ fn synthetic_voices_are_aligned_fast_and_slow() {
 }
 
 #[test]
+fn two_minutes_are_aligned_as_exactly_as_a_sentence() {
+    let Some(recordings) = recordings::espeak("m0_150") else { return };
+    let mut pieces = Vec::new();
+    let mut lasting = 0.0;
+    for recording in recordings.iter().cycle() {
+        if lasting >= 120.0 {
+            break;
+        }
+        lasting += recording.sound.duration();
+        pieces.push(recording.clone());
+    }
+    let long = edits::joined(&pieces);
+    let errors = measured("espeak, two minutes of sentences", &[long]);
+    assert!(errors.mean() <= 12.0 && errors.within(0.05) >= 95.0);
+}
+
+#[test]
 fn noise_20_db_below_the_voice_does_little_harm() {
     let Some(recordings) = recordings::espeak("m0_150_snr20") else { return };
     let errors = measured("espeak, noise at 20 dB", &recordings);

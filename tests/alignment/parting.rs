@@ -66,6 +66,26 @@ fn where_all_is_well_nothing_is_said() {
 }
 
 #[test]
+fn of_a_person_who_says_the_script_nothing_is_said() {
+    let Some(recordings) = recordings::own_voice() else { return };
+    let takes: Vec<_> = recordings.iter().map(Recording::take).collect();
+    let together = lianpu::speech::align(&takes);
+    let mut told = 0;
+    for (recording, together) in recordings.iter().zip(together) {
+        let together = together.unwrap();
+        for (how, found) in [("alone", recording.aligned()), ("together", together)] {
+            let notes = parted(&found);
+            told += notes.len();
+            if !notes.is_empty() {
+                println!("{}, {how}: {notes:?}", recording.name);
+            }
+        }
+    }
+    println!("six takes of a person, alone and together: {told} notes");
+    assert_eq!(told, 0);
+}
+
+#[test]
 fn a_word_that_is_not_in_the_script_is_pointed_out() {
     let Some(recordings) = sentences() else { return };
     let mut tally = Tally::default();

@@ -158,14 +158,16 @@ fn best(model: &Model, lesson: &Lesson, piece: &corpus::Piece) -> Vec<usize> {
     let terms: Vec<Vec<Terms>> = piece.units.iter().map(|u| model.of(*u).iter().map(Terms::of).collect()).collect();
     let mut before = vec![f32::NEG_INFINITY; n];
     let mut moved = vec![vec![false; n]; length];
-    for t in 0..length {
+    for (t, moved) in moved.iter_mut().enumerate() {
         let frame = lesson.heard.frame((piece.frames.start + t).min(lesson.heard.len() - 1));
         let mut now = vec![f32::NEG_INFINITY; n];
-        for i in 0..n {
-            let (stay, come) = (before[i], if i > 0 { before[i - 1] } else { f32::NEG_INFINITY });
+        let mut come = f32::NEG_INFINITY;
+        for (i, (now, terms)) in now.iter_mut().zip(&terms).enumerate() {
+            let stay = before[i];
             let from = if t == 0 { if i == 0 { 0.0 } else { f32::NEG_INFINITY } } else { stay.max(come) };
-            moved[t][i] = come > stay;
-            now[i] = from + terms[i].iter().map(|g| g.at(frame)).fold(f32::MIN, f32::max);
+            moved[i] = come > stay;
+            *now = from + terms.iter().map(|g| g.at(frame)).fold(f32::MIN, f32::max);
+            come = stay;
         }
         before = now;
     }

@@ -1,8 +1,7 @@
 //! Roughly when each unit is said: the best way through the script in steps of 10 ms, with a beam. Its cost grows with
 //! the length of the recording, not with its square.
 
-use super::chain::Chain;
-use super::search::{Costs, Section};
+use super::search::{Search, Section};
 use super::units::UNITS;
 
 /// Frames in a step.
@@ -11,8 +10,8 @@ pub const STEP: usize = 2;
 /// Ways that lie so far behind the best are given up. Scores are in units of the search.
 const BEAM: f32 = 250.0;
 
-/// So many places in the script are looked at once at most: half a minute of speech or more.
-const WIDEST: usize = 1024;
+/// So many places in the script are looked at once at most: some 80 syllables, a quarter of a minute of speech.
+const WIDEST: usize = 512;
 
 const NEVER: f32 = f32::NEG_INFINITY;
 
@@ -33,23 +32,22 @@ struct Step {
 /// For each link of the section the frames in which it begins and ends, roughly; a syllable that is not heard has no
 /// length. None where the beam lost the way.
 pub(super) fn roughly(
-    chain: &Chain,
+    search: &Search<'_>,
     rows: &dyn Fn(usize) -> usize,
-    scores: &[Vec<f32>],
     section: &Section,
-    rate: f32,
-    costs: &Costs,
 ) -> Option<(Vec<(usize, usize)>, f64)> {
-    let steps = steps(chain, section, rate, costs);
+    let (chain, scores) = (search.chain, search.scores);
+    let steps = steps(search, section);
     let count = (section.to - section.from) / STEP;
     if count == 0 {
         return None;
     }
+    let beside = vec![search.beside; section.to];
     let row_of: Vec<&[f32]> = steps
         .iter()
         .map(|s| match s.place {
             Place::Pause => &scores[0][..],
-            Place::Other => &scores[1][..],
+            Place::Other => &beside,
             Place::Unit(link) => &scores[rows(link)][..],
         })
         .collect();
@@ -145,7 +143,8 @@ pub(super) fn roughly(
     Some((out, score))
 }
 
-fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step> {
+fn steps(search: &Search<'_>, section: &Section) -> Vec<Step> {
+    let (chain, rate, costs) = (search.chain, search.rate, &search.costs);
     let mut steps: Vec<Step> = Vec::new();
     // The last unit of each syllable, and where the places before it begin.
     let mut lasts: Vec<usize> = Vec::new();
@@ -165,8 +164,9 @@ fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step
             lasts.last().map_or((gap + offset + 1, cost), |last| (gap + offset - last, cost + entered))
         };
         let pause_cost = if lasts.is_empty() || syllable == section.last { 0.0 } else { -costs.pause };
-        let skipped =
-            |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -costs.skip)).filter(|_| offset < 3);
+        // Of the syllable before this gap.
+        let skip = if syllable > section.first { search.skip(chain.syllables[syllable - 1].clone()) } else { 0.0 };
+        let skipped = |offset: usize, gaps: &[usize]| gaps.last().map(|g| (gap - g, -skip)).filter(|_| offset < 3);
         let mut pause = vec![(0, 0.0), from_last(0, pause_cost, &lasts)];
         pause.extend(skipped(0, &gaps));
         steps.push(Step { place: Place::Pause, ways: pause });
@@ -186,7 +186,7 @@ fn steps(chain: &Chain, section: &Section, rate: f32, costs: &Costs) -> Vec<Step
             if number == 0 {
                 ways.extend([(1, 0.0), (2, 0.0), (3, 0.0), from_last(3, 0.0, &lasts)]);
                 if let Some(before) = lasts.len().checked_sub(2).map(|i| lasts[i]) {
-                    ways.push((at - before, -costs.skip - 3.0));
+                    ways.push((at - before, -skip - 3.0));
                 }
             } else {
                 ways.push((1, left));

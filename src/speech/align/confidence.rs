@@ -135,7 +135,7 @@ mod tests {
                 scores[own][*from..*to].fill(contrast);
             }
             let costs = Costs { pause: 6.0, other: 40.0, skip: 40.0 };
-            let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs };
+            let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs, beside: 0.0 };
             let section = Section { from: 0, to: 120, first: 0, last: 2, full: false };
             let way = Way { links: spans.to_vec(), ..Way::default() };
             signs(&search, &section, &way, 30.0)

@@ -2,8 +2,11 @@
 //! them and how long it lasts; before every syllable there may be a pause, or something that is not in the script, and a
 //! syllable may be missing. Semi-Markov Viterbi, within bands about a first rough way.
 
+use std::ops::Range;
+
 use super::chain::Chain;
 use super::coarse;
+use super::features::FRAMES;
 use super::lasting::Lasting;
 use super::units::{ANY, SILENCE, Unit};
 
@@ -20,14 +23,25 @@ pub struct Costs {
     pub skip: f32,
 }
 
+impl Costs {
+    /// So many times dearer to leave the script; pauses cost the same.
+    #[must_use]
+    pub fn times(self, times: f32) -> Self {
+        Self { other: times * self.other, skip: times * self.skip, ..self }
+    }
+}
+
 /// The shortest pause, in frames: 30 ms. A stop has a closure of its own.
 const PAUSE: usize = 6;
 
-/// The shortest thing that is said beside the script, in frames: 100 ms.
-const OTHER: usize = 20;
+/// The shortest thing that is said beside the script, in frames: 150 ms.
+const OTHER: usize = 30;
 
 /// How often bands are made wider.
 const TRIES: usize = 3;
+
+/// Frames of a long recording: a minute and a half.
+const LONG: usize = 18_000;
 
 /// So many links to either side of where a way touches the edge of its band are given a wider one.
 const NEIGHBOURS: usize = 12;
@@ -76,6 +90,9 @@ pub struct Search<'a> {
     pub rate: f32,
     /// What leaving the way costs.
     pub costs: Costs,
+    /// What every frame of something beside the script scores, at most 0: how well this voice fits the script elsewhere.
+    /// What is beside it has to be less like the script than that.
+    pub beside: f32,
 }
 
 /// Where an end may lie: frames, both included.
@@ -130,6 +147,12 @@ impl Search<'_> {
         self.row(self.chain.links[link].unit)
     }
 
+    /// What it costs to leave out the syllable of some links.
+    pub(super) fn skip(&self, links: Range<usize>) -> f32 {
+        let usual = (self.chain.usual(links) * FRAMES) as f32 * self.rate;
+        self.costs.skip - self.beside * usual
+    }
+
     /// How long a link of the script may last.
     #[must_use]
     pub fn lasting(&self, link: usize) -> Lasting {
@@ -144,7 +167,9 @@ impl Search<'_> {
             None => self.roughly(section).map_or_else(|| self.spread(section), |r| r.0),
         };
         let mut widths = vec![width; rough.len()];
-        for _ in 0..TRIES {
+        // In a long recording some edge is always touched; all of it is not searched again and again for that.
+        let tries = if section.to - section.from > LONG { 1 } else { TRIES };
+        for _ in 0..tries {
             let (way, touched) = self.within(section, &rough, &widths);
             if touched.is_empty() && way.score > NEVER {
                 return way;
@@ -177,7 +202,7 @@ impl Search<'_> {
             ANY => 1,
             unit => self.rows[usize::from(unit)],
         };
-        coarse::roughly(self.chain, &rows, self.scores, section, self.rate, &self.costs)
+        coarse::roughly(self, &rows, section)
     }
 
     fn evenly(&self, section: &Section) -> Way {
@@ -185,7 +210,7 @@ impl Search<'_> {
     }
 
     /// Everything one after the other, evenly: where nothing better is known.
-    fn spread(&self, section: &Section) -> Vec<(usize, usize)> {
+    pub(super) fn spread(&self, section: &Section) -> Vec<(usize, usize)> {
         let links = self.chain.syllables[section.first].start..self.chain.syllables[section.last - 1].end;
         let (count, length) = (links.len(), section.to - section.from);
         (0..count).map(|i| (section.from + i * length / count, section.from + (i + 1) * length / count)).collect()
@@ -216,10 +241,11 @@ impl Search<'_> {
                 lengths.push((end, how));
                 now = next;
             }
-            // A syllable that is not heard.
+            // A syllable that is not heard; of the others, none fits better than this voice does.
+            let skip = f64::from(self.skip(links));
             let mut skipped = vec![false; now.scores.len()];
             for (i, (score, skipped)) in now.scores.iter_mut().zip(&mut skipped).enumerate().filter(|_| !section.full) {
-                let without = entered.at(now.band.low + i) - f64::from(self.costs.skip);
+                let without = entered.at(now.band.low + i) - skip;
                 if without > *score {
                     (*score, *skipped) = (without, true);
                 }
@@ -280,7 +306,7 @@ impl Search<'_> {
             return (Reached { band: to, scores }, (to.low..=to.high).map(here).collect());
         }
         let silence = self.row(SILENCE);
-        let low = before.band.low;
+        let (low, score) = (before.band.low, f64::from(self.beside));
         let (pause, cost) = if how.free { (1, 0.0) } else { (PAUSE, f64::from(self.costs.pause)) };
         let mut out = Vec::with_capacity(to.high + 1 - to.low);
         let mut how = Vec::with_capacity(to.high + 1 - to.low);
@@ -306,9 +332,9 @@ impl Search<'_> {
             let over = paused + sum - cost;
             let one = if over > direct { (over, paused_at as u32) } else { (direct, t as u32) };
             quiet.push(one);
-            // Something beside the script has the score of any voice, which is 0.
+            beside += score;
             if let Some(from) = i.checked_sub(OTHER) {
-                let value = quiet[from].0 - f64::from(self.costs.other);
+                let value = quiet[from].0 - f64::from(self.costs.other) + score * OTHER as f64;
                 if value > beside {
                     beside = value;
                     beside_how = Crossing { from: quiet[from].1, beside: Some(((low + from) as u32, 0)) };
@@ -408,7 +434,11 @@ mod tests {
 
     fn way(chain: &Chain, spans: &[(usize, usize)], frames: usize) -> Way {
         let (scores, rows) = painted(chain, spans, frames);
-        Search { chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS }.way(&whole(chain, frames), None, 200)
+        Search { chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 }.way(
+            &whole(chain, frames),
+            None,
+            200,
+        )
     }
 
     #[test]
@@ -440,7 +470,7 @@ mod tests {
         for link in &chain.links[2..] {
             scores[rows[usize::from(link.unit)]][345..470].fill(-3.0);
         }
-        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS };
+        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
         let found = search.way(&whole(&chain, 800), None, 200);
         assert_eq!(found.links, spans);
         assert_eq!(found.beside, [None, Some((345, 470)), None]);
@@ -450,7 +480,7 @@ mod tests {
     fn a_section_that_is_full_has_neither_pause_nor_gap() {
         let chain = Chain::of(&syllables("sa1", System::Hanyu).unwrap());
         let (scores, rows) = painted(&chain, &[(20, 40), (40, 60)], 100);
-        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS };
+        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
         for (from, to) in [(10, 80), (38, 42), (40, 41), (50, 50)] {
             let section = Section { from, to, full: true, ..whole(&chain, 100) };
             let found = search.way(&section, None, 200);
@@ -463,7 +493,7 @@ mod tests {
     fn far_too_much_script_is_spread_or_left_out_but_in_order() {
         let chain = Chain::of(&syllables(&"shuang1 ".repeat(40), System::Hanyu).unwrap());
         let (scores, rows) = painted(&chain, &[], 60);
-        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS };
+        let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
         let found = search.way(&whole(&chain, 60), None, 200);
         assert!(
             found.links.windows(2).all(|w| w[0].1 <= w[1].0) && found.links.iter().all(|l| l.0 <= l.1 && l.1 <= 60)
