@@ -121,6 +121,8 @@ struct Decoding {
     damaged: (usize, f64),
     /// Silence in place of what is missing so far, in seconds.
     silent: f64,
+    /// Whether the times in the file leapt too far to be believed.
+    leapt: bool,
     /// Why the first of them could not.
     failed: Option<String>,
     warnings: Vec<String>,
@@ -146,6 +148,7 @@ impl Decoding {
                         said: track.num_frames,
                         damaged: (0, 0.0),
                         silent: 0.0,
+                        leapt: false,
                         failed: None,
                         warnings: Vec::new(),
                     });
@@ -183,9 +186,7 @@ impl Decoding {
             if packet.track_id != self.track {
                 continue;
             }
-            if !self.fill(packet.pts.get())? {
-                return Ok(());
-            }
+            self.fill(packet.pts.get())?;
             match self.decoder.decode(&packet) {
                 Ok(buffer) => {
                     let (rate, channels) = (buffer.spec().rate(), buffer.spec().channels().count());
@@ -195,11 +196,7 @@ impl Decoding {
                     }
                 }
                 // Damage looks like anything, also like a feature that is not supported.
-                Err(error) => {
-                    if !self.lose(packet.dur.get(), &error)? {
-                        return Ok(());
-                    }
-                }
+                Err(error) => self.lose(packet.dur.get(), &error)?,
             }
         }
     }
@@ -225,22 +222,40 @@ impl Decoding {
         Ok(true)
     }
 
-    /// Silence where the time of the next packet lies behind what has been decoded; false where that cannot be.
-    fn fill(&mut self, time: i64) -> Result<bool> {
+    /// Silence where the time of the next packet lies behind what has been decoded. Times that leap too far ahead are
+    /// damaged: what follows comes at once and is timed from there, until they leap back.
+    fn fill(&mut self, time: i64) -> Result<()> {
         let origin = *self.origin.get_or_insert(time.max(0));
         let there = self.seconds();
         let due = self.in_seconds(time.saturating_sub(origin));
-        if due > there + GAP && self.mixer.is_some() {
-            if !self.silence(due - there)? {
-                return Ok(false);
-            }
-            self.damaged_at(there);
+        if self.mixer.is_none() {
+            return Ok(());
         }
-        Ok(true)
+        if self.leapt && due < there - MOST_MISSING {
+            self.rebase(time);
+        } else if due > there + GAP {
+            self.damaged_at(there);
+            if !self.silence(due - there)? {
+                if !std::mem::replace(&mut self.leapt, true) {
+                    let by = due - there;
+                    self.warnings
+                        .push(format!("at {there:.2} s the times in the file leap {by:.0} s ahead; that is left out"));
+                }
+                self.rebase(time);
+            }
+        }
+        Ok(())
     }
 
-    /// Silence instead of a packet that could not be decoded; false where it would be too much.
-    fn lose(&mut self, duration: u64, error: &Error) -> Result<bool> {
+    /// Lets a time of the track stand for where decoding is.
+    fn rebase(&mut self, time: i64) {
+        let units =
+            self.base.map_or(0.0, |base| self.seconds() * f64::from(base.denom.get()) / f64::from(base.numer.get()));
+        self.origin = Some(time.saturating_sub(units as i64));
+    }
+
+    /// Silence instead of a packet that could not be decoded.
+    fn lose(&mut self, duration: u64, error: &Error) -> Result<()> {
         let there = self.seconds();
         self.damaged_at(there);
         self.failed.get_or_insert_with(|| error.to_string());
@@ -248,7 +263,8 @@ impl Decoding {
             return Err(Fault::new(format!("nothing in the file can be decoded: {error}")));
         }
         let lost = self.in_seconds(i64::try_from(duration).unwrap_or(0));
-        self.silence(lost)
+        self.silence(lost)?;
+        Ok(())
     }
 
     fn damaged_at(&mut self, time: f64) {
@@ -258,14 +274,11 @@ impl Decoding {
         self.damaged.0 += 1;
     }
 
-    /// Puts silence in place of what is missing; false, with a warning, where that is more than can be believed.
+    /// Puts silence in place of what is missing; false where that is more than can be believed, and none is put.
     fn silence(&mut self, seconds: f64) -> Result<bool> {
         let (seconds, there) = (seconds.max(0.0), self.seconds());
         let Some((rate, mixer)) = &mut self.mixer else { return Ok(true) };
         if self.silent + seconds > there - self.silent + MOST_MISSING {
-            self.warnings.push(format!(
-                "at {there:.2} s the file says that {seconds:.0} s are missing; it is damaged, and what follows is not used"
-            ));
             return Ok(false);
         }
         self.silent += seconds;
@@ -289,10 +302,8 @@ impl Decoding {
         let next = format.tracks().iter().find_map(|track| Some((track, make(audio(track)?).ok()?)));
         let Some((track, decoder)) = next else { return false };
         // Its times begin anew.
-        (self.track, self.base, self.decoder, self.origin) = (track.id, track.time_base, decoder, None);
-        let units =
-            self.base.map_or(0.0, |base| self.seconds() * f64::from(base.denom.get()) / f64::from(base.numer.get()));
-        self.origin = Some(-(units as i64));
+        (self.track, self.base, self.decoder) = (track.id, track.time_base, decoder);
+        self.rebase(0);
         true
     }
 }
