@@ -1,0 +1,274 @@
+//! The fit: from a start to the shape, coarse to fine.
+
+use super::grey::Grey;
+use super::ground::Ground;
+use super::level::Level;
+use super::model::Model;
+use super::pose::Similarity;
+use super::shape::State;
+use super::sums::{products, square};
+use crate::geometry::{Point, Rect};
+
+/// Where a fit begins.
+#[derive(Debug, Clone, Copy)]
+pub enum Start<'a> {
+    /// With this shape, in pixels of the picture.
+    Points(&'a [Point]),
+    /// With the mean shape in this box, in pixels of the picture.
+    Box(Rect),
+    /// With this shape, near enough for the finest level alone: that of the frame before.
+    Near(&'a [Point]),
+}
+
+/// A fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The points in pixels of the picture, in the order of the training annotation.
+    pub points: Vec<Point>,
+    /// The shape without its pose: along each mode, in widths of the mean shape (paper eq. 5).
+    pub p: Vec<f64>,
+    /// The pose: from the mean shape, whose width is 1, to pixels.
+    pub q: Similarity,
+    /// 0 to 1: from 0.5 on the fit can be used. Made so that fits with an error of more than 3 % of the pupil distance lie
+    /// below.
+    pub confidence: f64,
+    /// How much of the contrast under the shape is unlike anything the model has seen, 0 to 1.
+    pub residual: f64,
+    /// Steps at all levels together.
+    pub iterations: usize,
+    /// Whether the last step was shorter than a tenth of a pixel.
+    pub converged: bool,
+}
+
+/// A step is short when it moves no point by more than this, in pixels of the level.
+const SHORT: f32 = 0.1;
+/// So many steps at most at a level.
+const MOST_STEPS: usize = 30;
+/// How far round the start's box the picture is looked at, in the start's widths.
+const ROUND: f64 = 0.3;
+
+/// Fits, one after the other, in memory that stays.
+#[derive(Debug, Clone)]
+pub struct Fitter<'m> {
+    model: &'m Model,
+    ground: Ground,
+    reading: Vec<f32>,
+    sums: Vec<f32>,
+    x: Vec<f32>,
+    y: Vec<f32>,
+    next: [Vec<f32>; 2],
+    moved: Vec<f32>,
+    bends: Vec<[f32; 4]>,
+    state: State,
+}
+
+/// How a descent at one level ended.
+#[derive(Debug, Clone, Copy)]
+struct Descent {
+    steps: usize,
+    converged: bool,
+    residual: f32,
+}
+
+impl<'m> Fitter<'m> {
+    /// A fitter of a model.
+    #[must_use]
+    pub fn new(model: &'m Model) -> Self {
+        let n = model.shapes.count();
+        Self {
+            model,
+            ground: Ground::default(),
+            reading: Vec::new(),
+            sums: Vec::new(),
+            x: vec![0.0; n],
+            y: vec![0.0; n],
+            next: [vec![0.0; n], vec![0.0; n]],
+            moved: vec![0.0; 2 * n],
+            bends: vec![[0.0; 4]; n],
+            state: State { along: vec![0.0; model.shapes.modes().len()], ..State::default() },
+        }
+    }
+
+    /// Finds the shape in a picture.
+    ///
+    /// # Panics
+    /// When the start's points are not as many as the model's.
+    #[must_use]
+    pub fn fit(&mut self, grey: &Grey, start: Start) -> Fit {
+        self.begin(start);
+        let near = matches!(start, Start::Near(_));
+        let levels = &self.model.levels;
+        let first = if near { levels.len() - 1 } else { 0 };
+        let mut steps = 0;
+        let mut last = Descent { steps: 0, converged: false, residual: f32::INFINITY };
+        for level in &levels[first..] {
+            last = self.descend(grey, level);
+            steps += last.steps;
+        }
+        self.said(steps, last)
+    }
+
+    fn begin(&mut self, start: Start) {
+        match start {
+            Start::Points(points) | Start::Near(points) => {
+                assert_eq!(points.len(), self.x.len(), "a start has the model's points");
+                for ((x, y), p) in self.x.iter_mut().zip(&mut self.y).zip(points) {
+                    (*x, *y) = (p.x as f32, p.y as f32);
+                }
+            }
+            Start::Box(rect) => {
+                let mean = self.model.shapes.mean();
+                let high = |f: fn(&Point) -> f64| mean.iter().map(f).fold(f64::MIN, f64::max);
+                let low = |f: fn(&Point) -> f64| mean.iter().map(f).fold(f64::MAX, f64::min);
+                let (left, top) = (low(|p| p.x), low(|p| p.y));
+                let height = high(|p| p.y) - top;
+                let scale = (rect.width() * rect.height() / height.max(1e-9)).max(0.0).sqrt();
+                let centre = Point::new(left + 0.5, top + height / 2.0);
+                for ((x, y), p) in self.x.iter_mut().zip(&mut self.y).zip(&mean) {
+                    let at = rect.center() + (*p - centre) * scale;
+                    (*x, *y) = (at.x as f32, at.y as f32);
+                }
+            }
+        }
+    }
+
+    /// Goes down at one level from where the points are, in the picture.
+    fn descend(&mut self, grey: &Grey, level: &Level) -> Descent {
+        let lost = |steps| Descent { steps, converged: false, residual: f32::INFINITY };
+        let shapes = &self.model.shapes;
+        if !shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state) {
+            return lost(0);
+        }
+        let scale = self.state.scale();
+        self.ground.lay(grey, around(&self.x, &self.y, scale), halvings(scale / level.width), level.smooth);
+        self.ground.enter(&mut self.x, &mut self.y);
+        shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
+        let (first, from) = (self.state.scale(), self.state.at);
+        let short = SHORT * first / level.width;
+        self.reading.resize(level.table.len(), 0.0);
+        self.sums.resize(level.step_count().max(level.look_count()), 0.0);
+        let mut end = lost(0);
+        let mut least = 0.0;
+        for steps in 1..=MOST_STEPS {
+            level.table.read(&self.ground, &self.x, &self.y, &mut self.reading);
+            let sums = &mut self.sums[..level.step_count()];
+            products(&level.steps, &self.reading, sums);
+            let contrast = sums[level.step_count() - 1];
+            if steps == 1 {
+                // A start far off shows little of the mean texture; its steps must not grow beyond measure.
+                let all = square(&self.reading);
+                let ones = self.reading.iter().sum::<f32>();
+                least = 0.25 * (all - ones * ones / level.table.count() as f32).max(1.0).sqrt();
+            }
+            self.step(level, contrast.max(least));
+            let longest = self.compose();
+            end.steps = steps;
+            let [dx, dy] = [self.state.at[0] - from[0], self.state.at[1] - from[1]];
+            let grown = self.state.scale() / first;
+            // Also true of what is no number.
+            if !(longest.is_finite() && (0.4..2.5).contains(&grown) && dx.hypot(dy) < 1.2 * first) {
+                self.ground.leave(&mut self.x, &mut self.y);
+                return lost(steps);
+            }
+            if longest < short {
+                end.converged = true;
+                break;
+            }
+        }
+        end.residual = self.residual(level);
+        self.ground.leave(&mut self.x, &mut self.y);
+        shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
+        end
+    }
+
+    /// Moves the points by what the sums say.
+    fn step(&mut self, level: &Level, contrast: f32) {
+        let n = self.x.len();
+        self.moved.fill(0.0);
+        for (direction, by) in level.directions.iter().zip(&self.sums) {
+            let by = by / contrast;
+            self.moved.iter_mut().zip(direction).for_each(|(m, d)| *m += by * d);
+        }
+        self.bends.fill([0.0; 4]);
+        for (t, inverse) in &level.triangles {
+            let [i, j, k] = *t;
+            let (ax, ay) = (self.x[i], self.y[i]);
+            let (bx, by) = (self.x[j] - ax, self.y[j] - ay);
+            let (cx, cy) = (self.x[k] - ax, self.y[k] - ay);
+            // What the mean shape's triangle became: sides now, times the inverse of the sides then.
+            let [e, f, g, h] = *inverse;
+            let bend = [bx * e + cx * g, bx * f + cx * h, by * e + cy * g, by * f + cy * h];
+            for v in *t {
+                self.bends[v].iter_mut().zip(bend).for_each(|(s, b)| *s += b);
+            }
+        }
+        let (mx, my) = self.moved.split_at(n);
+        let [nx, ny] = &mut self.next;
+        for i in 0..n {
+            let share = level.shares[i];
+            let [a, b, c, d] = self.bends[i].map(|v| v * share);
+            nx[i] = self.x[i] - (a * mx[i] + b * my[i]);
+            ny[i] = self.y[i] - (c * mx[i] + d * my[i]);
+        }
+        self.model.shapes.project(nx, ny, level.modes, &mut self.state);
+    }
+
+    /// Takes the new points; the longest way that one of them moved, along x or y.
+    fn compose(&mut self) -> f32 {
+        let [nx, ny] = &self.next;
+        let mut longest = 0.0_f32;
+        for (now, next) in [(&mut self.x, nx), (&mut self.y, ny)] {
+            for (v, n) in now.iter_mut().zip(next) {
+                let by = (*n - *v).abs();
+                // A move that is no number must not be lost in a comparison.
+                longest = if by > longest || by.is_nan() { by } else { longest };
+                *v = *n;
+            }
+        }
+        longest
+    }
+
+    /// How much of the last reading's contrast the looks leave over.
+    fn residual(&mut self, level: &Level) -> f32 {
+        let sums = &mut self.sums[..level.look_count()];
+        products(&level.looks, &self.reading, sums);
+        let all = square(&self.reading) - sums[0] * sums[0];
+        let held: f32 = sums[1..].iter().map(|s| s * s).sum();
+        if all > 1.0 { ((all - held).max(0.0) / all).sqrt() } else { f32::INFINITY }
+    }
+
+    fn said(&self, iterations: usize, last: Descent) -> Fit {
+        let points = self.x.iter().zip(&self.y).map(|(x, y)| Point::new(f64::from(*x), f64::from(*y))).collect();
+        let State { a, b, at: [x, y], along } = &self.state;
+        Fit {
+            points,
+            p: along.iter().map(|p| f64::from(*p)).collect(),
+            q: Similarity { a: f64::from(*a), b: f64::from(*b), at: Point::new(f64::from(*x), f64::from(*y)) },
+            confidence: self.model.trust.confidence(last.residual),
+            residual: f64::from(last.residual.min(1.0)),
+            iterations,
+            converged: last.converged,
+        }
+    }
+}
+
+/// How often a picture is halved that has so many pixels to one of the level: until there are fewer than 1.6.
+pub(super) fn halvings(ratio: f32) -> u32 {
+    let mut left = ratio;
+    let mut count = 0;
+    while left >= 1.6 && count < 12 {
+        left /= 2.0;
+        count += 1;
+    }
+    count
+}
+
+/// The box of the points, and what lies round it.
+fn around(xs: &[f32], ys: &[f32], scale: f32) -> Rect {
+    let low = |v: &[f32]| f64::from(v.iter().copied().fold(f32::MAX, f32::min));
+    let high = |v: &[f32]| f64::from(v.iter().copied().fold(f32::MIN, f32::max));
+    let margin = ROUND * f64::from(scale);
+    Rect::new(low(xs), low(ys), high(xs), high(ys)).inflate(margin, margin)
+}
+
+

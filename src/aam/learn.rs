@@ -1,0 +1,114 @@
+//! Training: from annotated pictures to a model.
+
+use super::appearance::textures;
+use super::fit::halvings;
+use super::grey::Grey;
+use super::ground::Ground;
+use super::level::{Look, Texture};
+use super::mesh::triangles;
+use super::model::Model;
+use super::shape::Shapes;
+use super::table::Table;
+use super::trust::Trust;
+use crate::disk::{Fault, Result};
+use crate::geometry::{Point, Rect};
+
+/// Whom a model is to fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kind {
+    /// The person it is trained on.
+    #[default]
+    Person,
+    /// Others too.
+    Anyone,
+}
+
+/// How a model is trained.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Whom it is to fit.
+    pub kind: Kind,
+    /// Pixels in the mean shape's width, from coarse to fine.
+    pub widths: Vec<f64>,
+    /// How many modes of the shape move at each level.
+    pub modes: Vec<usize>,
+    /// How often the picture is smoothed at each level.
+    pub smooth: Vec<u32>,
+    /// The share of the shapes' variance that their modes hold.
+    pub shape_share: f64,
+    /// The share of the textures' variance that their modes hold.
+    pub texture_share: f64,
+    /// The most modes of the texture.
+    pub texture_most: usize,
+}
+
+impl Options {
+    /// For a kind.
+    #[must_use]
+    pub fn of(kind: Kind) -> Self {
+        match kind {
+            Kind::Person => {
+                Self { kind, widths: vec![48.0, 120.0], modes: vec![3, 20], smooth: vec![2, 1], shape_share: 0.9999, texture_share: 0.9999, texture_most: 60 }
+            }
+            Kind::Anyone => {
+                Self { kind, widths: vec![48.0, 120.0], modes: vec![4, 16], smooth: vec![2, 1], shape_share: 0.97, texture_share: 0.95, texture_most: 60 }
+            }
+        }
+    }
+}
+
+impl Model {
+    /// Trains on pictures and the points in them, in pixels.
+    ///
+    /// # Errors
+    /// When there are fewer than two, they do not have equally many points, or nothing can be learned from them.
+    pub fn train(shots: &[(&Grey, &[Point])], options: &Options) -> Result<Self> {
+        let [(_, first), _, ..] = shots else {
+            return Err(Fault::new("a model needs two annotated pictures or more").help("annotate another picture"));
+        };
+        if let Some(at) = shots.iter().position(|(_, s)| s.len() != first.len()) {
+            let what = format!("picture {} has {} points, the first {}", at + 1, shots[at].1.len(), first.len());
+            return Err(Fault::new(what).help("mark the same points in every picture"));
+        }
+        let marked: Vec<Vec<Point>> = shots.iter().map(|(_, s)| s.to_vec()).collect();
+        let flat = || Fault::new("nothing can be learned from these points").help("are they marked in every picture?");
+        let shapes = Shapes::learned(&marked, options.shape_share, 40).ok_or_else(flat)?;
+        let triangles = triangles(&shapes.mean());
+        let mut stored = Vec::new();
+        for ((width, modes), smooth) in options.widths.iter().zip(&options.modes).zip(&options.smooth) {
+            let table = Table::new(&shapes.mean(), &triangles, *width);
+            let live: Vec<bool> = table.places().map(|at| at.is_some()).collect();
+            let readings: Vec<Vec<f32>> = shots
+                .iter()
+                .map(|(grey, points)| reading(&shapes, &table, grey, points, *width, *smooth).ok_or_else(flat))
+                .collect::<Result<_>>()?;
+            let found = textures(&readings, &live, options.texture_share, options.texture_most)
+                .ok_or_else(|| Fault::new("a picture is one flat grey under its points").help("give a photo of a face"))?;
+            let packed = |texture: &Vec<f64>| {
+                Texture::of(&texture.iter().zip(&live).filter(|(_, l)| **l).map(|(v, _)| *v).collect::<Vec<_>>())
+            };
+            stored.push(Look {
+                width: *width as f32,
+                modes: (*modes).min(shapes.modes().len()),
+                smooth: *smooth,
+                textures: found.iter().map(packed).collect(),
+            });
+        }
+        Self::of(shapes, stored, Trust { even: 0.3, steep: 8.0 }).ok_or_else(flat)
+    }
+}
+
+/// A picture read where a shape lies, as a fit reads it.
+fn reading(shapes: &Shapes, table: &Table, grey: &Grey, points: &[Point], width: f64, smooth: u32) -> Option<Vec<f32>> {
+    let (q, _) = shapes.describe(points)?;
+    let mut xs: Vec<f32> = points.iter().map(|p| p.x as f32).collect();
+    let mut ys: Vec<f32> = points.iter().map(|p| p.y as f32).collect();
+    let first = Rect::from_points(points[0], points[0]);
+    let region = points.iter().fold(first, |r, p| r.union_pt(*p)).inflate(0.1 * q.scale(), 0.1 * q.scale());
+    let mut ground = Ground::default();
+    ground.lay(grey, region, halvings((q.scale() / width) as f32), smooth);
+    ground.enter(&mut xs, &mut ys);
+    let mut out = vec![0.0; table.len()];
+    table.read(&ground, &xs, &ys, &mut out);
+    Some(out)
+}
