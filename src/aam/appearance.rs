@@ -3,9 +3,9 @@
 use super::shape::principal;
 
 /// Learns from readings of the same table, taken where each face's shape lies: the mean texture, then its modes, the
-/// strongest first. All are orthogonal to a constant and to each other, of length 1; what fills a reading up stays 0.
+/// strongest first, each with the standard deviation along it as a share of a face's contrast. All are orthogonal to a constant and to each other, of length 1; what fills a reading up stays 0.
 /// None where a reading is one flat grey.
-pub(super) fn textures(readings: &[Vec<f32>], live: &[bool], share: f64, most: usize) -> Option<Vec<Vec<f64>>> {
+pub(super) fn textures(readings: &[Vec<f32>], live: &[bool], share: f64, most: usize) -> Option<Vec<(Vec<f64>, f64)>> {
     let levelled: Vec<Vec<f64>> = readings.iter().map(|r| normal(r, live)).collect::<Option<_>>()?;
     let n = levelled.first()?.len();
     let mut mean = vec![0.0; n];
@@ -21,8 +21,9 @@ pub(super) fn textures(readings: &[Vec<f32>], live: &[bool], share: f64, most: u
             r.iter().zip(&mean).map(|(v, m)| v - along * m).collect()
         })
         .collect();
-    let mut found = vec![mean];
-    found.extend(principal(&rest, share, most).into_iter().map(|(mode, _)| mode));
+    let mut found = vec![(mean, 0.0)];
+    let dof = (readings.len().max(2) - 1) as f64;
+    found.extend(principal(&rest, share, most).into_iter().map(|(mode, square)| (mode, (square / dof).sqrt())));
     Some(found)
 }
 

@@ -6,6 +6,7 @@ use super::level::Level;
 use super::model::Model;
 use super::pose::Similarity;
 use super::shape::State;
+use super::steady::steadied;
 use super::sums::{products, square};
 use crate::geometry::{Point, Rect};
 
@@ -42,6 +43,9 @@ pub struct Fit {
 
 /// A step is short when it moves no point by more than this, in pixels of the level.
 const SHORT: f32 = 0.1;
+/// lab
+pub static TUNE: [std::sync::atomic::AtomicU32; 4] = [const { std::sync::atomic::AtomicU32::new(0) }; 4];
+fn tune(i: usize, d: f32) -> f32 { let v = TUNE[i].load(std::sync::atomic::Ordering::Relaxed); if v == 0 { d } else { v as f32 / 1000.0 } }
 /// So many steps at most at a level.
 const MOST_STEPS: usize = 30;
 /// How far round the start's box the picture is looked at, in the start's widths.
@@ -108,6 +112,23 @@ impl<'m> Fitter<'m> {
         self.said(steps, last)
     }
 
+    /// Finds the shape in the frame after one with this fit: begins with its points at the finest level, and at the
+    /// coarsest where that fails. What moves by less than a fit trembles is held: see [`steady`](super::steady).
+    #[must_use]
+    pub fn follow(&mut self, grey: &Grey, before: &Fit) -> Fit {
+        let mut fit = self.fit(grey, Start::Near(&before.points));
+        if fit.confidence < 0.5 {
+            let again = self.fit(grey, Start::Points(&before.points));
+            if again.confidence > fit.confidence {
+                fit = again;
+            }
+        }
+        if before.confidence >= 0.5 {
+            steadied(&self.model.shapes, before, &mut fit);
+        }
+        fit
+    }
+
     fn begin(&mut self, start: Start) {
         match start {
             Start::Points(points) | Start::Near(points) => {
@@ -140,12 +161,13 @@ impl<'m> Fitter<'m> {
             return lost(0);
         }
         let scale = self.state.scale();
-        self.ground.lay(grey, around(&self.x, &self.y, scale), halvings(scale / level.width), level.smooth);
+        self.ground.lay(grey, around(&self.x, &self.y, scale), halvings(scale / level.width), level.smooth, level.channels);
         self.ground.enter(&mut self.x, &mut self.y);
         shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
         let (first, from) = (self.state.scale(), self.state.at);
-        let short = SHORT * first / level.width;
-        self.reading.resize(level.table.len(), 0.0);
+        let short = tune(0, SHORT) * first / level.width;
+        self.reading.clear();
+        self.reading.resize(level.len(), 0.0);
         self.sums.resize(level.step_count().max(level.look_count()), 0.0);
         let mut end = lost(0);
         let mut least = 0.0;
@@ -158,7 +180,7 @@ impl<'m> Fitter<'m> {
                 // A start far off shows little of the mean texture; its steps must not grow beyond measure.
                 let all = square(&self.reading);
                 let ones = self.reading.iter().sum::<f32>();
-                least = 0.25 * (all - ones * ones / level.table.count() as f32).max(1.0).sqrt();
+                least = 0.25 * (all - ones * ones / (level.table.count() * level.channels.count()) as f32).max(1.0).sqrt();
             }
             self.step(level, contrast.max(least));
             let longest = self.compose();

@@ -13,11 +13,32 @@ pub(super) struct Ground {
     step: f32,
     width: usize,
     height: usize,
-    /// A pixel, its right neighbour, the one below, and that one's right neighbour, in the bytes from low to high.
-    fours: Vec<u32>,
+    /// Of each channel a pixel, its right neighbour, the one below, and that one's right neighbour, in the bytes from
+    /// low to high.
+    fours: Vec<Vec<u32>>,
     pixels: Vec<u8>,
     other: Vec<u8>,
     sums: Vec<u16>,
+}
+
+/// What of a picture is compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Channels {
+    /// The luma.
+    Luma,
+    /// How luma changes along x and along y, over how much it changes plus the mean of that (Cootes and Taylor 2001):
+    /// where edges run, hardly how strong they are. Of faces and light that are new to a model this says more.
+    Edges,
+}
+
+impl Channels {
+    /// How many there are.
+    pub const fn count(self) -> usize {
+        match self {
+            Self::Luma => 1,
+            Self::Edges => 2,
+        }
+    }
 }
 
 /// Of so many pixels at most; a place is then exact as a float.
@@ -26,7 +47,7 @@ const MOST: usize = 1 << 22;
 impl Ground {
     /// Takes the part of a picture within `region`, halved so often, then smoothed so often by 1, 2, 1. What lies
     /// outside the picture is not part of it, and whatever does not overlap it is its nearest corner.
-    pub fn lay(&mut self, grey: &Grey, region: Rect, halvings: u32, smooth: u32) {
+    pub fn lay(&mut self, grey: &Grey, region: Rect, halvings: u32, smooth: u32, channels: Channels) {
         let side = |low: f64, high: f64, size: usize| {
             let low = low.floor().clamp(0.0, (size - 1) as f64) as usize;
             let high = high.ceil().clamp(low as f64, (size - 1) as f64) as usize;
@@ -74,7 +95,41 @@ impl Ground {
         for _ in 0..smooth {
             self.smooth();
         }
-        self.pack();
+        self.fours.resize(channels.count(), Vec::new());
+        match channels {
+            Channels::Luma => self.pack(0),
+            Channels::Edges => {
+                let luma = self.pixels.clone();
+                let (slopes, mean) = self.slopes(&luma);
+                for channel in 0..2 {
+                    self.pixels.clear();
+                    self.pixels.extend(slopes.iter().map(|[x, y]| {
+                        let along = if channel == 0 { x } else { y };
+                        let strength = (x * x + y * y).sqrt();
+                        (128.0 + 120.0 * along / (strength + mean)) as u8
+                    }));
+                    self.smooth();
+                    self.pack(channel);
+                }
+            }
+        }
+    }
+
+    /// How a plane changes along x and y, and the mean of how much, not 0.
+    fn slopes(&self, luma: &[u8]) -> (Vec<[f32; 2]>, f32) {
+        let (w, h) = (self.width, self.height);
+        let at = |x: usize, y: usize| f32::from(luma[y * w + x]);
+        let slopes: Vec<[f32; 2]> = (0..w * h)
+            .map(|i| {
+                let (x, y) = (i % w, i / w);
+                [
+                    at((x + 1).min(w - 1), y) - at(x.saturating_sub(1), y),
+                    at(x, (y + 1).min(h - 1)) - at(x, y.saturating_sub(1)),
+                ]
+            })
+            .collect();
+        let sum: f64 = slopes.iter().map(|[x, y]| f64::from((x * x + y * y).sqrt())).sum();
+        (slopes, ((sum / (w * h) as f64) as f32).max(0.5))
     }
 
     /// 1, 2, 1 along both axes; the border goes on beyond itself.
@@ -101,13 +156,14 @@ impl Ground {
         std::mem::swap(&mut self.pixels, &mut self.other);
     }
 
-    fn pack(&mut self) {
+    fn pack(&mut self, channel: usize) {
         let (w, h) = (self.width, self.height);
-        self.fours.resize(w * h, 0);
+        let fours = &mut self.fours[channel];
+        fours.resize(w * h, 0);
         for y in 0..h {
             let below = (y + 1).min(h - 1);
             let (top, below) = (&self.pixels[y * w..(y + 1) * w], &self.pixels[below * w..(below + 1) * w]);
-            let out = &mut self.fours[y * w..(y + 1) * w];
+            let out = &mut fours[y * w..(y + 1) * w];
             let four = |a: u8, b: u8, c: u8, d: u8| {
                 u32::from(a) | u32::from(b) << 8 | u32::from(c) << 16 | u32::from(d) << 24
             };
@@ -125,14 +181,9 @@ impl Ground {
         (self.width as f32, (self.width - 1) as f32, (self.height - 1) as f32)
     }
 
-    /// The packed neighbours, row by row.
-    pub fn fours(&self) -> &[u32] {
-        &self.fours
-    }
-
-    /// Pixels of the picture in one of its own.
-    pub fn step(&self) -> f32 {
-        self.step
+    /// The packed neighbours of each channel, row by row.
+    pub fn fours(&self) -> impl Iterator<Item = &[u32]> {
+        self.fours.iter().map(|f| &f[..])
     }
 
     /// From places in the picture to its own.
@@ -167,12 +218,12 @@ mod tests {
         let grey = Grey::new(64, 48, (0..64 * 48).map(|i| (2 * (i % 64) + i / 64) as u8).collect());
         for (halvings, smooth) in [(0, 0), (0, 2), (1, 1), (2, 0)] {
             let mut ground = Ground::default();
-            ground.lay(&grey, Rect::new(3.0, 5.0, 60.0, 46.0), halvings, smooth);
+            ground.lay(&grey, Rect::new(3.0, 5.0, 60.0, 46.0), halvings, smooth, Channels::Luma);
             let (mut xs, mut ys) = ([30.0_f32], [20.0_f32]);
             ground.enter(&mut xs, &mut ys);
             let (x, y) = (xs[0] as usize, ys[0] as usize);
             let w = ground.size().0 as usize;
-            let four = ground.fours()[y * w + x].to_le_bytes().map(f32::from);
+            let four = ground.fours[0][y * w + x].to_le_bytes().map(f32::from);
             let (fx, fy) = (xs[0].fract(), ys[0].fract());
             let v = (four[0] * (1.0 - fx) + four[1] * fx) * (1.0 - fy) + (four[2] * (1.0 - fx) + four[3] * fx) * fy;
             assert!((v - 80.0).abs() <= 1.0, "{halvings} {smooth}: {v}");
@@ -186,8 +237,8 @@ mod tests {
         let grey = Grey::new(1, 1, vec![7]);
         let mut ground = Ground::default();
         for region in [Rect::new(-50.0, -50.0, -10.0, -10.0), Rect::new(1e9, 1e9, 1e9, 1e9), Rect::ZERO] {
-            ground.lay(&grey, region, 3, 2);
-            assert_eq!(ground.fours().len(), 1);
+            ground.lay(&grey, region, 3, 2, Channels::Edges);
+            assert_eq!(ground.fours[1].len(), 1);
         }
     }
 }

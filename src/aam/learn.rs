@@ -1,9 +1,11 @@
 //! Training: from annotated pictures to a model.
 
 use super::appearance::textures;
+use super::detected::Detected;
 use super::fit::halvings;
 use super::grey::Grey;
-use super::ground::Ground;
+use super::ground::{Channels, Ground};
+use super::mirror::mirrored;
 use super::level::{Look, Texture};
 use super::mesh::triangles;
 use super::model::Model;
@@ -40,6 +42,12 @@ pub struct Options {
     pub texture_share: f64,
     /// The most modes of the texture.
     pub texture_most: usize,
+    /// Whether to compare where edges run instead of luma.
+    pub edges: bool,
+    /// Whether to learn from mirror images too, where the points are those of something symmetric.
+    pub mirror: bool,
+    /// Whether to learn, from the pictures, where a fit begins when the face is searched for.
+    pub detect: bool,
 }
 
 impl Options {
@@ -48,10 +56,10 @@ impl Options {
     pub fn of(kind: Kind) -> Self {
         match kind {
             Kind::Person => {
-                Self { kind, widths: vec![48.0, 120.0], modes: vec![3, 20], smooth: vec![2, 1], shape_share: 0.9999, texture_share: 0.9999, texture_most: 60 }
+                Self { kind, widths: vec![48.0, 120.0], modes: vec![3, 20], smooth: vec![2, 0], shape_share: 0.9999, texture_share: 0.9999, texture_most: 60, detect: true, edges: false, mirror: false }
             }
             Kind::Anyone => {
-                Self { kind, widths: vec![48.0, 120.0], modes: vec![4, 16], smooth: vec![2, 1], shape_share: 0.97, texture_share: 0.95, texture_most: 60 }
+                Self { kind, widths: vec![48.0, 120.0], modes: vec![4, 16], smooth: vec![2, 1], shape_share: 0.97, texture_share: 0.95, texture_most: 60, detect: true, edges: true, mirror: true }
             }
         }
     }
@@ -70,45 +78,56 @@ impl Model {
             let what = format!("picture {} has {} points, the first {}", at + 1, shots[at].1.len(), first.len());
             return Err(Fault::new(what).help("mark the same points in every picture"));
         }
+        let twins = if options.mirror { mirrored(shots) } else { Vec::new() };
+        let doubled: Vec<(&Grey, &[Point])> =
+            shots.iter().copied().chain(twins.iter().map(|(grey, points)| (grey, &points[..]))).collect();
+        let shots = &doubled[..];
         let marked: Vec<Vec<Point>> = shots.iter().map(|(_, s)| s.to_vec()).collect();
         let flat = || Fault::new("nothing can be learned from these points").help("are they marked in every picture?");
         let shapes = Shapes::learned(&marked, options.shape_share, 40).ok_or_else(flat)?;
         let triangles = triangles(&shapes.mean());
+        let channels = if options.edges { Channels::Edges } else { Channels::Luma };
         let mut stored = Vec::new();
         for ((width, modes), smooth) in options.widths.iter().zip(&options.modes).zip(&options.smooth) {
             let table = Table::new(&shapes.mean(), &triangles, *width);
-            let live: Vec<bool> = table.places().map(|at| at.is_some()).collect();
+            let live: Vec<bool> =
+                (0..channels.count()).flat_map(|_| table.places()).map(|at| at.is_some()).collect();
             let readings: Vec<Vec<f32>> = shots
                 .iter()
-                .map(|(grey, points)| reading(&shapes, &table, grey, points, *width, *smooth).ok_or_else(flat))
+                .map(|(grey, points)| reading(&shapes, &table, grey, points, *width, *smooth, channels).ok_or_else(flat))
                 .collect::<Result<_>>()?;
-            let found = textures(&readings, &live, options.texture_share, options.texture_most)
+            // Of few pictures the weakest modes are what is peculiar to one of them.
+            let most = options.texture_most.min((2 * (shots.len() - 1)).div_ceil(3));
+            let found = textures(&readings, &live, options.texture_share, most)
                 .ok_or_else(|| Fault::new("a picture is one flat grey under its points").help("give a photo of a face"))?;
-            let packed = |texture: &Vec<f64>| {
-                Texture::of(&texture.iter().zip(&live).filter(|(_, l)| **l).map(|(v, _)| *v).collect::<Vec<_>>())
+            let packed = |(texture, deviation): &(Vec<f64>, f64)| {
+                let values: Vec<f64> = texture.iter().zip(&live).filter(|(_, l)| **l).map(|(v, _)| *v).collect();
+                Texture::of(&values, *deviation)
             };
             stored.push(Look {
                 width: *width as f32,
                 modes: (*modes).min(shapes.modes().len()),
                 smooth: *smooth,
+                channels,
                 textures: found.iter().map(packed).collect(),
             });
         }
-        Self::of(shapes, stored, Trust { even: 0.3, steep: 8.0 }).ok_or_else(flat)
+        let detected = if options.detect { Detected::learned(&shapes, shots) } else { None };
+        Self::of(shapes, stored, Trust { even: 0.3, steep: 8.0 }, detected).ok_or_else(flat)
     }
 }
 
 /// A picture read where a shape lies, as a fit reads it.
-fn reading(shapes: &Shapes, table: &Table, grey: &Grey, points: &[Point], width: f64, smooth: u32) -> Option<Vec<f32>> {
+fn reading(shapes: &Shapes, table: &Table, grey: &Grey, points: &[Point], width: f64, smooth: u32, channels: Channels) -> Option<Vec<f32>> {
     let (q, _) = shapes.describe(points)?;
     let mut xs: Vec<f32> = points.iter().map(|p| p.x as f32).collect();
     let mut ys: Vec<f32> = points.iter().map(|p| p.y as f32).collect();
     let first = Rect::from_points(points[0], points[0]);
     let region = points.iter().fold(first, |r, p| r.union_pt(*p)).inflate(0.1 * q.scale(), 0.1 * q.scale());
     let mut ground = Ground::default();
-    ground.lay(grey, region, halvings((q.scale() / width) as f32), smooth);
+    ground.lay(grey, region, halvings((q.scale() / width) as f32), smooth, channels);
     ground.enter(&mut xs, &mut ys);
-    let mut out = vec![0.0; table.len()];
+    let mut out = vec![0.0; table.len() * channels.count()];
     table.read(&ground, &xs, &ys, &mut out);
     Some(out)
 }

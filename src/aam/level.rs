@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::ground::Channels;
 use super::shape::{Shapes, dot, similar};
 use super::table::Table;
 use crate::geometry::Point;
@@ -20,6 +21,8 @@ pub(super) struct Look {
     pub modes: usize,
     /// How often the picture is smoothed.
     pub smooth: u32,
+    /// What of it is compared.
+    pub channels: Channels,
     /// The mean texture and its modes, as whole numbers in parts of a largest one.
     pub textures: Vec<Texture>,
 }
@@ -29,15 +32,17 @@ pub(super) struct Look {
 pub(super) struct Texture {
     /// What one step of a value is worth.
     pub step: f32,
+    /// The standard deviation along it, as a share of the contrast; 0 of the mean.
+    pub deviation: f32,
     /// The values at the table's pixels, without what fills up.
     pub values: Vec<i16>,
 }
 
 impl Texture {
-    pub fn of(values: &[f64]) -> Self {
+    pub fn of(values: &[f64], deviation: f64) -> Self {
         let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.abs())).max(1e-12);
         let step = (largest / 32_000.0) as f32;
-        Self { step, values: values.iter().map(|v| (v / f64::from(step)).round() as i16).collect() }
+        Self { step, deviation: deviation as f32, values: values.iter().map(|v| (v / f64::from(step)).round() as i16).collect() }
     }
 }
 
@@ -50,6 +55,8 @@ pub(super) struct Level {
     pub modes: usize,
     /// How often the picture is smoothed.
     pub smooth: u32,
+    /// What of it is compared.
+    pub channels: Channels,
     /// The pixels.
     pub table: Table,
     /// Row by row: how far to move along the similarity's four directions and the modes, times the contrast; then the
@@ -70,9 +77,9 @@ impl Level {
     pub fn new(shapes: &Shapes, triangles: &[[usize; 3]], look: &Look) -> Option<Self> {
         let mean = shapes.mean();
         let table = Table::new(&mean, triangles, f64::from(look.width));
-        let mut rows = vec![constant(&table)];
+        let mut rows = vec![constant(&table, look.channels.count())];
         for texture in &look.textures {
-            if texture.values.len() != table.count() {
+            if texture.values.len() != table.count() * look.channels.count() {
                 return None;
             }
             let mut values = texture.values.iter();
@@ -81,7 +88,7 @@ impl Level {
                 Some(_) => values.next().map_or(0.0, |v| f64::from(*v) * step),
                 None => 0.0,
             };
-            rows.push(table.places().map(spread).collect());
+            rows.push((0..look.channels.count()).flat_map(|_| table.places()).map(spread).collect());
         }
         let rows = orthogonal(rows);
         if rows.len() < 2 {
@@ -89,15 +96,19 @@ impl Level {
         }
         let modes = look.modes.min(shapes.modes().len());
         let directions = directions(shapes, modes);
-        let slopes = slopes(&table, &rows[1]);
-        let mut descent = vec![vec![0.0_f64; table.len()]; directions.len()];
+        let len = table.len() * look.channels.count();
+        let slopes: Vec<[f64; 2]> =
+            rows[1].chunks_exact(table.len()).flat_map(|texture| slopes(&table, texture)).collect();
+        let mut descent = vec![vec![0.0_f64; len]; directions.len()];
         for (i, corners, weights) in table.weights() {
-            let [gx, gy] = slopes[i];
             for (images, direction) in descent.iter_mut().zip(&directions) {
                 let along = |axis: usize| -> f64 {
                     corners.iter().zip(weights).map(|(c, w)| direction[axis + c] * f64::from(w)).sum()
                 };
-                images[i] = gx * along(0) + gy * along(shapes.count());
+                let (x, y) = (along(0), along(shapes.count()));
+                for at in (i..len).step_by(table.len()) {
+                    images[at] = slopes[at][0] * x + slopes[at][1] * y;
+                }
             }
         }
         for image in &mut descent {
@@ -113,13 +124,13 @@ impl Level {
             hessian[(i, i)] += slight.max(1e-12);
         }
         let inverse = hessian.cholesky()?.inverse();
-        let mut steps = Vec::with_capacity((n + 1) * table.len());
+        let mut steps = Vec::with_capacity((n + 1) * len);
         let mut column = DVector::zeros(n);
-        let mut by_pixel = vec![0.0_f32; n * table.len()];
-        for i in 0..table.len() {
+        let mut by_pixel = vec![0.0_f32; n * len];
+        for i in 0..len {
             (0..n).for_each(|k| column[k] = descent[k][i]);
             let moved = &inverse * &column;
-            (0..n).for_each(|k| by_pixel[k * table.len() + i] = moved[k] as f32);
+            (0..n).for_each(|k| by_pixel[k * len + i] = moved[k] as f32);
         }
         steps.append(&mut by_pixel);
         steps.extend(rows[1].iter().map(|v| *v as f32));
@@ -128,6 +139,7 @@ impl Level {
             width: look.width,
             modes,
             smooth: look.smooth,
+            channels: look.channels,
             steps,
             looks: rows.iter().flatten().map(|v| *v as f32).collect(),
             directions: directions.iter().map(|d| d.iter().map(|v| *v as f32).collect()).collect(),
@@ -144,7 +156,12 @@ impl Level {
 
     /// How many rows `looks` has.
     pub fn look_count(&self) -> usize {
-        self.looks.len() / self.table.len().max(1)
+        self.looks.len() / self.len().max(1)
+    }
+
+    /// How many numbers a reading has.
+    pub fn len(&self) -> usize {
+        self.table.len() * self.channels.count()
     }
 }
 
@@ -156,9 +173,9 @@ fn directions(shapes: &Shapes, modes: usize) -> Vec<Vec<f64>> {
 }
 
 /// 1 at every pixel, as a vector of length 1.
-fn constant(table: &Table) -> Vec<f64> {
-    let one = 1.0 / (table.count().max(1) as f64).sqrt();
-    table.places().map(|at| if at.is_some() { one } else { 0.0 }).collect()
+fn constant(table: &Table, channels: usize) -> Vec<f64> {
+    let one = 1.0 / ((table.count() * channels).max(1) as f64).sqrt();
+    (0..channels).flat_map(|_| table.places()).map(|at| if at.is_some() { one } else { 0.0 }).collect()
 }
 
 /// Gram and Schmidt, twice for the sake of rounding; what adds nothing is left out.
@@ -180,9 +197,9 @@ fn orthogonal(rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     kept
 }
 
-/// How a texture changes along x and y, for each number of a reading. Beyond the mean shape's border the texture goes
-/// on as it is there.
-fn slopes(table: &Table, texture: &[f64]) -> Vec<[f64; 2]> {
+/// A texture on the table's grid. Beyond the mean shape's border it goes on as it is there, for two pixels; farther out
+/// it is no number.
+pub(super) fn grid(table: &Table, texture: &[f64]) -> Vec<f64> {
     let [w, h] = table.size();
     let mut grid = vec![f64::NAN; w * h];
     for (at, v) in table.places().zip(texture) {
@@ -206,6 +223,13 @@ fn slopes(table: &Table, texture: &[f64]) -> Vec<[f64; 2]> {
             }
         }
     }
+    grid
+}
+
+/// How a texture changes along x and y, for each number of a reading.
+fn slopes(table: &Table, texture: &[f64]) -> Vec<[f64; 2]> {
+    let w = table.size()[0];
+    let grid = grid(table, texture);
     let slope = |at: usize, by: usize| {
         let (a, b) = (grid.get(at.wrapping_sub(by)), grid.get(at + by));
         match (a, b) {

@@ -12,25 +12,28 @@
 pub mod annotation;
 mod align;
 mod appearance;
-
-
+mod detected;
+mod file;
 mod fit;
 mod grey;
 mod ground;
 mod learn;
 mod level;
 mod mesh;
+mod mirror;
 mod model;
+mod painted;
 mod pose;
 mod shape;
 mod shots;
+mod steady;
 mod sums;
 mod table;
 mod trust;
 
 pub use align::{Aligned, align};
 pub use annotation::Annotation;
-pub use fit::{Fit, Fitter, Start};
+pub use fit::{TUNE, Fit, Fitter, Start};
 pub use grey::Grey;
 pub use learn::{Kind, Options};
 pub use mesh::triangles;

@@ -1,11 +1,14 @@
 //! A trained model.
 
+use super::detected::Detected;
 use super::fit::{Fit, Fitter, Start};
 use super::grey::Grey;
 use super::level::{Level, Look};
 use super::mesh::triangles;
 use super::shape::Shapes;
 use super::trust::Trust;
+use crate::face::find::Found;
+use crate::geometry::Point;
 
 /// A trained active appearance model, ready to fit.
 #[derive(Debug, Clone)]
@@ -16,14 +19,15 @@ pub struct Model {
     pub(super) stored: Vec<Look>,
     pub(super) levels: Vec<Level>,
     pub(super) trust: Trust,
+    pub(super) detected: Option<Detected>,
 }
 
 impl Model {
     /// Puts stored parts together; none where they do not belong together.
-    pub(super) fn of(shapes: Shapes, stored: Vec<Look>, trust: Trust) -> Option<Self> {
+    pub(super) fn of(shapes: Shapes, stored: Vec<Look>, trust: Trust, detected: Option<Detected>) -> Option<Self> {
         let triangles = triangles(&shapes.mean());
         let levels = stored.iter().map(|look| Level::new(&shapes, &triangles, look)).collect::<Option<Vec<_>>>()?;
-        (!levels.is_empty() && !triangles.is_empty()).then_some(Self { shapes, triangles, stored, levels, trust })
+        (!levels.is_empty() && !triangles.is_empty()).then_some(Self { shapes, triangles, stored, levels, trust, detected })
     }
 
     /// How its shapes vary.
@@ -42,6 +46,13 @@ impl Model {
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
         self.levels.last().map_or([0, 0], |l| [l.table.count(), l.directions.len()])
+    }
+
+    /// Where a fit begins in a picture in which a face was found; none where the model was trained on pictures in
+    /// which none is.
+    #[must_use]
+    pub fn start(&self, found: &Found) -> Option<Vec<Point>> {
+        self.detected.as_ref()?.start(&self.shapes, found)
     }
 
     /// Finds the shape in a picture; for more than one picture a [`Fitter`] keeps its memory.

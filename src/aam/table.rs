@@ -20,6 +20,9 @@ pub(super) struct Table {
     /// Pixels in a row of the grid, and rows.
     size: [usize; 2],
     count: usize,
+    /// The mean shape's least x and y, and pixels in its width.
+    low: Vec2,
+    width: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -38,12 +41,12 @@ impl Table {
     /// The pixels of a mean shape of the width 1 when drawn `width` pixels wide.
     pub fn new(mean: &[Point], triangles: &[[usize; 3]], width: f64) -> Self {
         let low = mean.iter().fold(Vec2::new(f64::MAX, f64::MAX), |l, p| Vec2::new(l.x.min(p.x), l.y.min(p.y)));
-        let placed: Vec<Point> =
-            mean.iter().map(|p| ((*p - low).to_vec2() * width + Vec2::new(MARGIN, MARGIN)).to_point()).collect();
+        let mut table = Self { low, width, ..Self::default() };
+        let placed: Vec<Point> = mean.iter().map(|p| table.place(*p)).collect();
         let high = placed.iter().fold(Vec2::ZERO, |h, p| Vec2::new(h.x.max(p.x), h.y.max(p.y)));
         let size = [high.x, high.y].map(|v| (v + MARGIN).ceil() as usize + 1);
         let mut taken = vec![false; size[0] * size[1]];
-        let mut table = Self { size, ..Self::default() };
+        table.size = size;
         for t in triangles {
             let [a, b, c] = t.map(|v| placed[v]);
             let (ab, ac) = (b - a, c - a);
@@ -82,6 +85,11 @@ impl Table {
         table
     }
 
+    /// The place in the grid of a place in the mean shape.
+    pub fn place(&self, p: Point) -> Point {
+        ((p.to_vec2() - self.low) * self.width + Vec2::new(MARGIN, MARGIN)).to_point()
+    }
+
     /// How many pixels the mean shape has.
     pub fn count(&self) -> usize {
         self.count
@@ -111,10 +119,15 @@ impl Table {
     }
 
     /// Reads a picture where a shape's triangles lie; bilinear, and beyond the border what lies nearest. `xs` and `ys`
-    /// are places in `ground`; whatever is no number is read as 0.
+    /// are places in `ground`; its channels are read one after the other; whatever is no number is read as 0.
     pub fn read(&self, ground: &Ground, xs: &[f32], ys: &[f32], out: &mut [f32]) {
         let (row, right, bottom) = ground.size();
-        let fours = ground.fours();
+        for (fours, out) in ground.fours().zip(out.chunks_exact_mut(self.len().max(1))) {
+            self.read_channel(fours, [row, right, bottom], xs, ys, out);
+        }
+    }
+
+    fn read_channel(&self, fours: &[u32], [row, right, bottom]: [f32; 3], xs: &[f32], ys: &[f32], out: &mut [f32]) {
         for run in &self.runs {
             let [i, j, k] = run.corners;
             let (ax, ay) = (xs[i], ys[i]);
