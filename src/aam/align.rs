@@ -27,9 +27,8 @@ pub fn align(shapes: &[Vec<Point>]) -> Option<Aligned> {
     let mut laid = Vec::new();
     for _ in 0..ROUNDS {
         laid = shapes.iter().map(|s| onto(s, &mean)).collect::<Option<Vec<_>>>()?;
-        let sums: Vec<Point> = (0..mean.len())
-            .map(|i| middle(&laid.iter().map(|s: &Vec<Point>| s[i]).collect::<Vec<_>>()))
-            .collect();
+        let sums: Vec<Point> =
+            (0..mean.len()).map(|i| middle(&laid.iter().map(|s: &Vec<Point>| s[i]).collect::<Vec<_>>())).collect();
         // The mean may neither shrink nor turn away.
         let turned = onto(&sums, &mean)?;
         let next = unit(&turned)?;

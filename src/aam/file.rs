@@ -3,7 +3,8 @@
 //! | what | how |
 //! | --- | --- |
 //! | `LPAM`, version 1 | 4 bytes, `u32` |
-//! | points L, shape modes M, levels K | three `u32` |
+//! | points L, those outside the border included, shape modes M, levels K | three `u32` |
+//! | 1 where shape and look are fitted at once, else 0; border points B; their numbers | two `u32`; B `u32` |
 //! | mean shape; modes; deviations | 2 L, M × 2 L, M `f32` |
 //! | at this residual a fit is as likely right as wrong; how fast that falls | two `f32` |
 //! | K levels: width; modes used, smoothing, 1 for edges and 0 for luma, textures T, values N | `f32`; five `u32` |
@@ -20,7 +21,7 @@ use std::path::Path;
 use super::detected::{Detected, NUMBERS};
 use super::ground::Channels;
 use super::level::{Look, Texture};
-use super::model::Model;
+use super::model::{Model, Parts};
 use super::shape::Shapes;
 use super::trust::Trust;
 use crate::aam::annotation::MAX_POINTS;
@@ -43,6 +44,8 @@ impl Model {
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut out = Bytes(MAGIC.to_vec());
         out.counts(&[VERSION as usize, self.shapes.count(), self.shapes.modes().len(), self.stored.len()]);
+        out.counts(&[usize::from(self.simultaneous), self.border.len()]);
+        out.counts(&self.border);
         out.numbers(self.shapes.mean_vector());
         self.shapes.modes().iter().for_each(|m| out.numbers(m));
         out.numbers(self.shapes.deviations());
@@ -71,7 +74,8 @@ impl Model {
     /// # Errors
     /// When they are of another kind or version, or damaged.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let damaged = || Fault::new("the model is damaged").help("copy it again, or train it again with `lianpu aam train`");
+        let damaged =
+            || Fault::new("the model is damaged").help("copy it again, or train it again with `lianpu aam train`");
         if !bytes.starts_with(MAGIC) {
             return Err(Fault::new("this is not a trained model").help("train one with `lianpu aam train`"));
         }
@@ -145,9 +149,12 @@ impl Left<'_> {
     }
 
     fn model(&mut self) -> Option<Model> {
-        let count = self.count(MAX_POINTS as u32)?;
+        let count = self.count(2 * MAX_POINTS as u32)?;
         let modes = self.count(MAX_MODES)?;
         let levels = self.count(MAX_LEVELS)?;
+        let simultaneous = self.count(1)? == 1;
+        let border = self.count(MAX_POINTS as u32)?;
+        let border = (0..border).map(|_| self.count(MAX_POINTS as u32)).collect::<Option<Vec<_>>>()?;
         let mean = self.numbers(2 * count)?;
         let vectors = (0..modes).map(|_| self.numbers(2 * count)).collect::<Option<Vec<_>>>()?;
         let deviations = self.numbers(modes)?;
@@ -166,7 +173,7 @@ impl Left<'_> {
             }
             _ => return None,
         };
-        Model::of(shapes, stored, trust, detected)
+        Model::of(Parts { shapes, stored, trust, detected, border, simultaneous })
     }
 
     fn look(&mut self) -> Option<Look> {
@@ -201,13 +208,15 @@ mod tests {
             };
             let grey = Grey::new(90, 80, (0..90 * 80).map(pixel).collect());
             let points: Vec<Point> = (0..16)
-                .map(|i| Point::new(20.0 + 16.0 * f64::from(i % 4) + by * f64::from(i / 4), 16.0 + 15.0 * f64::from(i / 4)))
+                .map(|i| {
+                    Point::new(20.0 + 16.0 * f64::from(i % 4) + by * f64::from(i / 4), 16.0 + 15.0 * f64::from(i / 4))
+                })
                 .collect();
             (grey, points)
         };
         let shots = [shot(0.0), shot(1.0), shot(2.2)];
         let pairs: Vec<(&Grey, &[Point])> = shots.iter().map(|(g, p)| (g, &p[..])).collect();
-        let options = Options { widths: vec![24.0, 40.0], detect: false, ..Options::of(Kind::Person) };
+        let options = Options { pixels: vec![500, 1500], detect: false, ..Options::of(Kind::Person) };
         let model = Model::train(&pairs, &options).unwrap();
         let [(grey, points), ..] = shots;
         (model, grey, points)

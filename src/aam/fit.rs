@@ -6,6 +6,7 @@ use super::level::Level;
 use super::model::Model;
 use super::pose::Similarity;
 use super::shape::State;
+use super::simultaneous;
 use super::steady::steadied;
 use super::sums::{products, square};
 use crate::geometry::{Point, Rect};
@@ -43,9 +44,6 @@ pub struct Fit {
 
 /// A step is short when it moves no point by more than this, in pixels of the level.
 const SHORT: f32 = 0.1;
-/// lab
-pub static TUNE: [std::sync::atomic::AtomicU32; 4] = [const { std::sync::atomic::AtomicU32::new(0) }; 4];
-fn tune(i: usize, d: f32) -> f32 { let v = TUNE[i].load(std::sync::atomic::Ordering::Relaxed); if v == 0 { d } else { v as f32 / 1000.0 } }
 /// So many steps at most at a level.
 const MOST_STEPS: usize = 30;
 /// How far round the start's box the picture is looked at, in the start's widths.
@@ -64,6 +62,8 @@ pub struct Fitter<'m> {
     moved: Vec<f32>,
     bends: Vec<[f32; 4]>,
     state: State,
+    /// Where a level began, to go back to from where it was lost.
+    begun: [Vec<f32>; 2],
 }
 
 /// How a descent at one level ended.
@@ -90,6 +90,7 @@ impl<'m> Fitter<'m> {
             moved: vec![0.0; 2 * n],
             bends: vec![[0.0; 4]; n],
             state: State { along: vec![0.0; model.shapes.modes().len()], ..State::default() },
+            begun: [vec![0.0; n], vec![0.0; n]],
         }
     }
 
@@ -106,7 +107,7 @@ impl<'m> Fitter<'m> {
         let mut steps = 0;
         let mut last = Descent { steps: 0, converged: false, residual: f32::INFINITY };
         for level in &levels[first..] {
-            last = self.descend(grey, level);
+            last = self.descend(grey, level, self.model.simultaneous);
             steps += last.steps;
         }
         self.said(steps, last)
@@ -129,43 +130,63 @@ impl<'m> Fitter<'m> {
         fit
     }
 
+    /// The same fit closer, shape and look found at once: for stills, where a few milliseconds do not matter. Where that
+    /// leads away, the fit as it was.
+    #[must_use]
+    pub fn refine(&mut self, grey: &Grey, fit: &Fit) -> Fit {
+        let Some(level) = self.model.levels.last() else { return fit.clone() };
+        self.begin(Start::Near(&fit.points));
+        let last = self.descend(grey, level, true);
+        let refined = self.said(fit.iterations + last.steps, last);
+        if refined.residual <= fit.residual { refined } else { fit.clone() }
+    }
+
     fn begin(&mut self, start: Start) {
+        self.state = State { along: vec![0.0; self.state.along.len()], ..State::default() };
         match start {
             Start::Points(points) | Start::Near(points) => {
-                assert_eq!(points.len(), self.x.len(), "a start has the model's points");
-                for ((x, y), p) in self.x.iter_mut().zip(&mut self.y).zip(points) {
-                    (*x, *y) = (p.x as f32, p.y as f32);
+                assert_eq!(points.len(), self.model.count(), "a start has the model's points");
+                for ((x, y), p) in self.x.iter_mut().zip(&mut self.y).zip(self.model.skirted(points)) {
+                    (*x, *y) = (sane(p.x), sane(p.y));
                 }
             }
             Start::Box(rect) => {
                 let mean = self.model.shapes.mean();
-                let high = |f: fn(&Point) -> f64| mean.iter().map(f).fold(f64::MIN, f64::max);
-                let low = |f: fn(&Point) -> f64| mean.iter().map(f).fold(f64::MAX, f64::min);
-                let (left, top) = (low(|p| p.x), low(|p| p.y));
-                let height = high(|p| p.y) - top;
-                let scale = (rect.width() * rect.height() / height.max(1e-9)).max(0.0).sqrt();
-                let centre = Point::new(left + 0.5, top + height / 2.0);
+                let marked = &mean[..self.model.count()];
+                let high = |f: fn(&Point) -> f64| marked.iter().map(f).fold(f64::MIN, f64::max);
+                let low = |f: fn(&Point) -> f64| marked.iter().map(f).fold(f64::MAX, f64::min);
+                let own = Rect::new(low(|p| p.x), low(|p| p.y), high(|p| p.x), high(|p| p.y));
+                let scale = (rect.area().abs() / own.area().max(1e-9)).sqrt();
+                let centre = own.center();
                 for ((x, y), p) in self.x.iter_mut().zip(&mut self.y).zip(&mean) {
                     let at = rect.center() + (*p - centre) * scale;
-                    (*x, *y) = (at.x as f32, at.y as f32);
+                    (*x, *y) = (sane(at.x), sane(at.y));
                 }
             }
         }
     }
 
-    /// Goes down at one level from where the points are, in the picture.
-    fn descend(&mut self, grey: &Grey, level: &Level) -> Descent {
+    /// Goes down at one level from where the points are, in the picture; where it gets lost they stay there.
+    fn descend(&mut self, grey: &Grey, level: &Level, together: bool) -> Descent {
         let lost = |steps| Descent { steps, converged: false, residual: f32::INFINITY };
         let shapes = &self.model.shapes;
         if !shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state) {
             return lost(0);
         }
+        self.begun[0].copy_from_slice(&self.x);
+        self.begun[1].copy_from_slice(&self.y);
         let scale = self.state.scale();
-        self.ground.lay(grey, around(&self.x, &self.y, scale), halvings(scale / level.width), level.smooth, level.channels);
+        self.ground.lay(
+            grey,
+            around(&self.x, &self.y, scale),
+            halvings(scale / level.width),
+            level.smooth,
+            level.channels,
+        );
         self.ground.enter(&mut self.x, &mut self.y);
         shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
         let (first, from) = (self.state.scale(), self.state.at);
-        let short = tune(0, SHORT) * first / level.width;
+        let short = SHORT * first / level.width;
         self.reading.clear();
         self.reading.resize(level.len(), 0.0);
         self.sums.resize(level.step_count().max(level.look_count()), 0.0);
@@ -174,13 +195,23 @@ impl<'m> Fitter<'m> {
         for steps in 1..=MOST_STEPS {
             level.table.read(&self.ground, &self.x, &self.y, &mut self.reading);
             let sums = &mut self.sums[..level.step_count()];
-            products(&level.steps, &self.reading, sums);
-            let contrast = sums[level.step_count() - 1];
-            if steps == 1 {
+            let contrast = if together {
+                let deviations = shapes.deviations();
+                if !simultaneous::step(level, &self.reading, &self.state.along, deviations, sums) {
+                    self.back(level);
+                    return lost(steps);
+                }
+                1.0
+            } else {
+                products(&level.steps, &self.reading, sums);
+                sums[level.step_count() - 1]
+            };
+            if steps == 1 && !together {
                 // A start far off shows little of the mean texture; its steps must not grow beyond measure.
                 let all = square(&self.reading);
                 let ones = self.reading.iter().sum::<f32>();
-                least = 0.25 * (all - ones * ones / (level.table.count() * level.channels.count()) as f32).max(1.0).sqrt();
+                least =
+                    0.25 * (all - ones * ones / (level.table.count() * level.channels.count()) as f32).max(1.0).sqrt();
             }
             self.step(level, contrast.max(least));
             let longest = self.compose();
@@ -189,7 +220,7 @@ impl<'m> Fitter<'m> {
             let grown = self.state.scale() / first;
             // Also true of what is no number.
             if !(longest.is_finite() && (0.4..2.5).contains(&grown) && dx.hypot(dy) < 1.2 * first) {
-                self.ground.leave(&mut self.x, &mut self.y);
+                self.back(level);
                 return lost(steps);
             }
             if longest < short {
@@ -201,6 +232,13 @@ impl<'m> Fitter<'m> {
         self.ground.leave(&mut self.x, &mut self.y);
         shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
         end
+    }
+
+    /// Back to where the level began.
+    fn back(&mut self, level: &Level) {
+        self.x.copy_from_slice(&self.begun[0]);
+        self.y.copy_from_slice(&self.begun[1]);
+        self.model.shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
     }
 
     /// Moves the points by what the sums say.
@@ -260,7 +298,8 @@ impl<'m> Fitter<'m> {
     }
 
     fn said(&self, iterations: usize, last: Descent) -> Fit {
-        let points = self.x.iter().zip(&self.y).map(|(x, y)| Point::new(f64::from(*x), f64::from(*y))).collect();
+        let marked = self.x.iter().zip(&self.y).take(self.model.count());
+        let points = marked.map(|(x, y)| Point::new(f64::from(*x), f64::from(*y))).collect();
         let State { a, b, at: [x, y], along } = &self.state;
         Fit {
             points,
@@ -272,6 +311,11 @@ impl<'m> Fitter<'m> {
             converged: last.converged,
         }
     }
+}
+
+/// A coordinate that can be reckoned with.
+fn sane(v: f64) -> f32 {
+    if v.is_finite() { v.clamp(-1e6, 1e6) as f32 } else { 0.0 }
 }
 
 /// How often a picture is halved that has so many pixels to one of the level: until there are fewer than 1.6.
@@ -292,5 +336,3 @@ fn around(xs: &[f32], ys: &[f32], scale: f32) -> Rect {
     let margin = ROUND * f64::from(scale);
     Rect::new(low(xs), low(ys), high(xs), high(ys)).inflate(margin, margin)
 }
-
-

@@ -164,9 +164,8 @@ impl Ground {
             let below = (y + 1).min(h - 1);
             let (top, below) = (&self.pixels[y * w..(y + 1) * w], &self.pixels[below * w..(below + 1) * w]);
             let out = &mut fours[y * w..(y + 1) * w];
-            let four = |a: u8, b: u8, c: u8, d: u8| {
-                u32::from(a) | u32::from(b) << 8 | u32::from(c) << 16 | u32::from(d) << 24
-            };
+            let four =
+                |a: u8, b: u8, c: u8, d: u8| u32::from(a) | u32::from(b) << 8 | u32::from(c) << 16 | u32::from(d) << 24;
             out[w - 1] = four(top[w - 1], top[w - 1], below[w - 1], below[w - 1]);
             for ((((o, a), b), c), d) in
                 out[..w - 1].iter_mut().zip(&top[..w - 1]).zip(&top[1..]).zip(&below[..w - 1]).zip(&below[1..])
@@ -204,9 +203,11 @@ impl Ground {
 /// The means of blocks of two by two.
 fn halve(top: &[u8], below: &[u8], out: &mut Vec<u8>) {
     let ((top, _), (below, _)) = (top.as_chunks::<2>(), below.as_chunks::<2>());
-    out.extend(top.iter().zip(below).map(|([a, b], [c, d])| {
-        ((u16::from(*a) + u16::from(*b) + u16::from(*c) + u16::from(*d) + 2) >> 2) as u8
-    }));
+    out.extend(
+        top.iter()
+            .zip(below)
+            .map(|([a, b], [c, d])| ((u16::from(*a) + u16::from(*b) + u16::from(*c) + u16::from(*d) + 2) >> 2) as u8),
+    );
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ground::Channels;
 use super::shape::{Shapes, dot, similar};
+use super::simultaneous::Slopes;
 use super::table::Table;
 use crate::geometry::Point;
 
@@ -42,7 +43,11 @@ impl Texture {
     pub fn of(values: &[f64], deviation: f64) -> Self {
         let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.abs())).max(1e-12);
         let step = (largest / 32_000.0) as f32;
-        Self { step, deviation: deviation as f32, values: values.iter().map(|v| (v / f64::from(step)).round() as i16).collect() }
+        Self {
+            step,
+            deviation: deviation as f32,
+            values: values.iter().map(|v| (v / f64::from(step)).round() as i16).collect(),
+        }
     }
 }
 
@@ -70,6 +75,8 @@ pub(super) struct Level {
     pub triangles: Vec<([usize; 3], [f32; 4])>,
     /// One over the number of triangles that a point is a corner of.
     pub shares: Vec<f32>,
+    /// For simultaneous steps.
+    pub slopes: Slopes,
 }
 
 impl Level {
@@ -134,6 +141,7 @@ impl Level {
         }
         steps.append(&mut by_pixel);
         steps.extend(rows[1].iter().map(|v| *v as f32));
+        let ready = ready(&table, &rows[1..], &directions, shapes.count());
         let (triangles, shares) = incident(&mean, triangles, look.width);
         Some(Self {
             width: look.width,
@@ -146,6 +154,7 @@ impl Level {
             table,
             triangles,
             shares,
+            slopes: ready,
         })
     }
 
@@ -163,6 +172,24 @@ impl Level {
     pub fn len(&self) -> usize {
         self.table.len() * self.channels.count()
     }
+}
+
+/// What simultaneous steps need of textures and directions.
+fn ready(table: &Table, textures: &[Vec<f64>], directions: &[Vec<f64>], count: usize) -> Slopes {
+    let of = |texture: &Vec<f64>| {
+        let all: Vec<[f64; 2]> = texture.chunks_exact(table.len()).flat_map(|t| slopes(table, t)).collect();
+        [0, 1].map(|axis| all.iter().map(|s| s[axis] as f32).collect())
+    };
+    let warp = |direction: &Vec<f64>| {
+        let mut out = [vec![0.0_f32; table.len()], vec![0.0_f32; table.len()]];
+        for (i, corners, weights) in table.weights() {
+            for (axis, out) in out.iter_mut().enumerate() {
+                out[i] = corners.iter().zip(weights).map(|(c, w)| direction[axis * count + c] as f32 * w).sum();
+            }
+        }
+        out
+    };
+    Slopes { looks: textures.iter().map(of).collect(), warps: directions.iter().map(warp).collect() }
 }
 
 /// The similarity's four directions, then the modes.

@@ -34,7 +34,8 @@ pub fn triangles(points: &[Point]) -> Vec<[usize; 3]> {
         if (0..i).any(|j| all[j].distance(all[i]) < 1e-5) {
             continue;
         }
-        let (gone, mut kept): (Vec<[usize; 3]>, Vec<[usize; 3]>) = made.iter().partition(|t| in_circle(&all, t, all[i]));
+        let (gone, mut kept): (Vec<[usize; 3]>, Vec<[usize; 3]>) =
+            made.iter().partition(|t| in_circle(&all, t, all[i]));
         let edges: Vec<[usize; 2]> = gone.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).collect();
         for [a, b] in &edges {
             if !edges.contains(&[*b, *a]) {

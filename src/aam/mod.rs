@@ -26,6 +26,8 @@ mod painted;
 mod pose;
 mod shape;
 mod shots;
+mod simultaneous;
+mod skirt;
 mod steady;
 mod sums;
 mod table;
@@ -33,7 +35,7 @@ mod trust;
 
 pub use align::{Aligned, align};
 pub use annotation::Annotation;
-pub use fit::{TUNE, Fit, Fitter, Start};
+pub use fit::{Fit, Fitter, Start};
 pub use grey::Grey;
 pub use learn::{Kind, Options};
 pub use mesh::triangles;

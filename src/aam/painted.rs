@@ -46,7 +46,8 @@ impl Model {
                 continue;
             }
             let low = |f: fn(Point) -> f64| f(a).min(f(b)).min(f(c)).floor().max(0.0) as usize;
-            let high = |f: fn(Point) -> f64, size: usize| f(a).max(f(b)).max(f(c)).ceil().clamp(0.0, size as f64) as usize;
+            let high =
+                |f: fn(Point) -> f64, size: usize| f(a).max(f(b)).max(f(c)).ceil().clamp(0.0, size as f64) as usize;
             for y in low(|p| p.y)..high(|p| p.y, height) {
                 for x in low(|p| p.x)..high(|p| p.x, width) {
                     let p = Point::new(x as f64, y as f64) - a;

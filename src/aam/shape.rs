@@ -30,9 +30,8 @@ impl Shapes {
         let n = aligned.mean.len();
         let (low, high) = aligned.mean.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.x), h.max(p.x)));
         let size = 1.0 / (high - low).max(1e-9);
-        let vector = |s: &[Point]| -> Vec<f64> {
-            s.iter().map(|p| p.x * size).chain(s.iter().map(|p| p.y * size)).collect()
-        };
+        let vector =
+            |s: &[Point]| -> Vec<f64> { s.iter().map(|p| p.x * size).chain(s.iter().map(|p| p.y * size)).collect() };
         let mean = vector(&aligned.mean);
         let still = similar(&mean);
         let rest: Vec<Vec<f64>> = aligned
@@ -122,7 +121,10 @@ impl Shapes {
             let (mx, my) = mode.split_at(self.count);
             let (cx, cy) = self.mean.split_at(self.count);
             (0..self.count)
-                .map(|i| f64::from(mx[i]) * (laid[i].x - f64::from(cx[i])) + f64::from(my[i]) * (laid[i].y - f64::from(cy[i])))
+                .map(|i| {
+                    f64::from(mx[i]) * (laid[i].x - f64::from(cx[i]))
+                        + f64::from(my[i]) * (laid[i].y - f64::from(cy[i]))
+                })
                 .sum()
         };
         Some((q, self.modes.iter().map(along).collect()))

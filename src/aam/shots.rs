@@ -48,7 +48,9 @@ impl Shot {
                         .help("keep one annotation a picture in the folder"));
                 }
                 if shots.len() == MOST {
-                    return Err(Fault::new(format!("there are more than {MOST} pictures")).at(folder).help("take fewer"));
+                    return Err(Fault::new(format!("there are more than {MOST} pictures"))
+                        .at(folder)
+                        .help("take fewer"));
                 }
                 let grey = Grey::read(&path)?;
                 let points = annotation.in_pixels([grey.width(), grey.height()]);

@@ -113,8 +113,7 @@ impl Table {
     /// The corners of the triangle and the shares along its sides of each number of a reading.
     pub fn weights(&self) -> impl Iterator<Item = (usize, [usize; 3], [f32; 3])> + '_ {
         self.runs.iter().flat_map(|r| {
-            (r.first..r.first + r.count)
-                .map(|i| (i, r.corners, [1.0 - self.u[i] - self.v[i], self.u[i], self.v[i]]))
+            (r.first..r.first + r.count).map(|i| (i, r.corners, [1.0 - self.u[i] - self.v[i], self.u[i], self.v[i]]))
         })
     }
 

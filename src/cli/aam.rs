@@ -108,7 +108,7 @@ fn train(args: &Train, out: &mut dyn Write) -> Result<()> {
         "wrote {}: {} pictures, {} points, {} modes of the shape; {pixels} pixels and {parameters} parameters are fitted",
         args.out.display(),
         shots.len(),
-        model.shapes().count(),
+        model.count(),
         model.shapes().modes().len(),
     )
     .map_err(output_fault)
@@ -132,7 +132,9 @@ fn fit(args: &FitArgs, out: &mut dyn Write) -> Result<()> {
             (None, None, Some(area)) => fitter.fit(&grey, Start::Box(area)),
             (None, None, None) => {
                 let found = find(&grey.to_photo(), &[]).map_err(|refusal| {
-                    Fault::new(refusal.to_string()).at(path).help("say where the face is: --start FILE.pts or --box X,Y,W,H")
+                    Fault::new(refusal.to_string())
+                        .at(path)
+                        .help("say where the face is: --start FILE.pts or --box X,Y,W,H")
                 })?;
                 let points = model.start(&found).ok_or_else(|| {
                     Fault::new("the model does not know where its points lie on a face that was searched for")
@@ -142,6 +144,7 @@ fn fit(args: &FitArgs, out: &mut dyn Write) -> Result<()> {
                 fitter.fit(&grey, Start::Points(&points))
             }
         };
+        let fit = if args.sequence { fit } else { fitter.refine(&grey, &fit) };
         let line = if args.json { as_json(path, &fit) } else { in_words(path, &fit) };
         writeln!(out, "{line}").map_err(output_fault)?;
         last = Some(fit);
@@ -171,13 +174,15 @@ fn in_words(path: &Path, fit: &Fit) -> String {
 /// The points to begin with, of a file that annotates one face.
 fn of_file(path: &Path, model: &Model) -> Result<Annotation> {
     let mut list = Annotation::read(path)?;
-    let count = model.shapes().count();
+    let count = model.count();
     match (list.pop(), list.is_empty()) {
         (Some(one), true) if one.points.len() == count => Ok(one),
         (Some(one), true) => Err(Fault::new(format!("it has {} points, and the model {count}", one.points.len()))
             .at(path)
             .help("begin with points in the order of the model's training annotation")),
-        _ => Err(Fault::new("it annotates more than one face").at(path).help("give a file with the points to begin with")),
+        _ => Err(Fault::new("it annotates more than one face")
+            .at(path)
+            .help("give a file with the points to begin with")),
     }
 }
 

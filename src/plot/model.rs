@@ -29,7 +29,7 @@ pub fn model(model: &Model) -> Drawing {
     let triangles = model.triangles().len();
     let mut parts = vec![
         ("Mean face".to_owned(), page.face(&mean, 0, 0.0, false)),
-        (format!("{} points: over the mean face", mean.len()), page.face(&mean, 0, 0.0, true)),
+        (format!("{} points: over the mean face", model.count()), page.face(&mean, 0, 0.0, true)),
         (format!("{triangles} triangles: {pixels} pixels and {parameters} parameters are fitted"), page.mesh(&mean)),
     ];
     let total: f64 = shapes.deviations().iter().map(|d| f64::from(d * d)).sum();
@@ -40,7 +40,10 @@ pub fn model(model: &Model) -> Drawing {
         let name = k + 1;
         parts.push((format!("Shape {name}, \u{2212}{OUT} \u{3c3}"), page.face(&at(-OUT), 0, 0.0, true)));
         let moves = page.moves(&at(-OUT), &at(OUT));
-        parts.push((format!("Shape {name}: {share:.0} % of how shapes vary, from \u{2212}{OUT} to +{OUT} \u{3c3}"), moves));
+        parts.push((
+            format!("Shape {name}: {share:.0} % of how shapes vary, from \u{2212}{OUT} to +{OUT} \u{3c3}"),
+            moves,
+        ));
         parts.push((format!("Shape {name}, +{OUT} \u{3c3}"), page.face(&at(OUT), 0, 0.0, true)));
     }
     for k in 1..=model.looks().min(SHOWN) {
@@ -98,7 +101,7 @@ impl<'m> Page<'m> {
         let mut items = vec![Item::Picture(raster)];
         if dots {
             let dot = |p: &Point| Item::area("", Circle::new(self.place * *p, 1.6).to_path(0.05), POINTS);
-            items.extend(shape.iter().map(dot));
+            items.extend(shape.iter().take(self.model.count()).map(dot));
         }
         self.drawing(items)
     }
@@ -113,14 +116,15 @@ impl<'m> Page<'m> {
         }
         let lines = stroke_outline(&(self.place * lines), 0.8);
         let dot = |p: &Point| Item::area("", Circle::new(self.place * *p, 1.8).to_path(0.05), MOVES);
-        let items = std::iter::once(Item::area("mesh", lines, LINES)).chain(shape.iter().map(dot));
+        let items =
+            std::iter::once(Item::area("mesh", lines, LINES)).chain(shape.iter().take(self.model.count()).map(dot));
         self.drawing(items.collect())
     }
 
     /// How each point moves from a shape to another.
     fn moves(&self, from: &[Point], to: &[Point]) -> Drawing {
         let mut items = Vec::new();
-        for (a, b) in from.iter().zip(to) {
+        for (a, b) in from.iter().zip(to).take(self.model.count()) {
             let (a, b) = (self.place * *a, self.place * *b);
             let mut line = BezPath::new();
             line.move_to(a);

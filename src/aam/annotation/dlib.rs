@@ -36,7 +36,9 @@ pub(super) fn parse(text: &str) -> Result<Vec<Annotation>> {
         }
     }
     if list.is_empty() {
-        return Err(Fault::new("no box in it has parts").line(1).help("mark points with imglab --parts, and save again"));
+        return Err(Fault::new("no box in it has parts")
+            .line(1)
+            .help("mark points with imglab --parts, and save again"));
     }
     Ok(list)
 }
