@@ -1,12 +1,12 @@
 //! Shapes laid over each other, so that what is left of their differences is form alone.
 
 use super::pose::{Similarity, middle};
-use crate::geometry::Point;
+use crate::geometry::{Point, Vec2};
 
 /// Shapes turned, scaled and shifted onto their common mean.
 #[derive(Debug, Clone)]
 pub struct Aligned {
-    /// The mean: its middle at the origin, its size (root of the sum of squares) 1, turned as the first shape is.
+    /// The mean: its middle at the origin, its size (root of the sum of squares) 1, turned as the shapes are on the whole.
     pub mean: Vec<Point>,
     /// The shapes, each as near to the mean as a similarity brings it.
     pub shapes: Vec<Vec<Point>>,
@@ -36,6 +36,16 @@ pub fn align(shapes: &[Vec<Point>]) -> Option<Aligned> {
         mean = next;
         if moved < 1e-12 {
             break;
+        }
+    }
+    // How the shapes are turned against the mean, together.
+    let turns = shapes.iter().filter_map(|s| Similarity::between(&mean, s)).map(|q| Vec2::from_angle(q.turn()));
+    let turn = turns.fold(Vec2::ZERO, |s, v| s + v);
+    let upright =
+        Similarity { a: turn.x / turn.hypot().max(1e-9), b: turn.y / turn.hypot().max(1e-9), at: Point::ORIGIN };
+    if turn.hypot() > 1e-6 {
+        for p in mean.iter_mut().chain(laid.iter_mut().flatten()) {
+            *p = upright.apply(*p);
         }
     }
     Some(Aligned { mean, shapes: laid })

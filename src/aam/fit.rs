@@ -40,6 +40,8 @@ pub struct Fit {
     pub iterations: usize,
     /// Whether the last step was shorter than a tenth of a pixel.
     pub converged: bool,
+    /// The points before anything was held: where the next frame begins.
+    pub(super) ended: Vec<Point>,
 }
 
 /// A step is short when it moves no point by more than this, in pixels of the level.
@@ -48,6 +50,25 @@ const SHORT: f32 = 0.1;
 const MOST_STEPS: usize = 30;
 /// How far round the start's box the picture is looked at, in the start's widths.
 const ROUND: f64 = 0.3;
+
+/// Where a fit that has failed is tried again: how far beside its start, in widths, how many times as large, and by how
+/// many radians turned.
+const ROUND_A_START: [[f32; 4]; 14] = [
+    [0.15, 0.0, 1.0, 0.0],
+    [-0.15, 0.0, 1.0, 0.0],
+    [0.0, 0.15, 1.0, 0.0],
+    [0.0, -0.15, 1.0, 0.0],
+    [0.0, 0.0, 0.8, 0.0],
+    [0.0, 0.0, 1.25, 0.0],
+    [0.0, 0.0, 1.0, 0.25],
+    [0.0, 0.0, 1.0, -0.25],
+    [0.2, 0.2, 1.0, 0.0],
+    [-0.2, 0.2, 1.0, 0.0],
+    [0.2, -0.2, 1.0, 0.0],
+    [-0.2, -0.2, 1.0, 0.0],
+    [0.0, 0.3, 1.0, 0.0],
+    [0.0, -0.3, 1.0, 0.0],
+];
 
 /// Fits, one after the other, in memory that stays.
 #[derive(Debug, Clone)]
@@ -103,21 +124,60 @@ impl<'m> Fitter<'m> {
         self.begin(start);
         let near = matches!(start, Start::Near(_));
         let levels = &self.model.levels;
-        let first = if near { levels.len() - 1 } else { 0 };
-        let mut steps = 0;
-        let mut last = Descent { steps: 0, converged: false, residual: f32::INFINITY };
-        for level in &levels[first..] {
+        let (first, fine) = if near { (levels.len() - 1, &levels[..0]) } else { (0, &levels[1..]) };
+        let began = [self.x.clone(), self.y.clone()];
+        let mut last = self.descend(grey, &levels[first], self.model.simultaneous);
+        let mut steps = last.steps;
+        for level in fine {
             last = self.descend(grey, level, self.model.simultaneous);
             steps += last.steps;
         }
-        self.said(steps, last)
+        let fit = self.said(steps, last);
+        if near || fit.confidence >= 0.5 { fit } else { self.fit_from_round(grey, &began, fit) }
+    }
+
+    /// Tries again from round a start that has led nowhere: at the coarsest level from each, at the others from the best.
+    fn fit_from_round(&mut self, grey: &Grey, began: &[Vec<f32>; 2], failed: Fit) -> Fit {
+        let levels = &self.model.levels;
+        let mut steps = failed.iterations;
+        let mut best: Option<(Descent, [Vec<f32>; 2])> = None;
+        for [dx, dy, larger, turn] in ROUND_A_START {
+            self.displace(began, [dx, dy], larger, turn);
+            let end = self.descend(grey, &levels[0], self.model.simultaneous);
+            steps += end.steps;
+            if best.as_ref().is_none_or(|(b, _)| end.residual < b.residual) {
+                best = Some((end, [self.x.clone(), self.y.clone()]));
+            }
+        }
+        let Some((mut last, [x, y])) = best.filter(|(b, _)| b.residual.is_finite()) else { return failed };
+        (self.x, self.y) = (x, y);
+        for level in &levels[1..] {
+            last = self.descend(grey, level, self.model.simultaneous);
+            steps += last.steps;
+        }
+        let fit = self.said(steps, last);
+        if fit.confidence > failed.confidence { fit } else { Fit { iterations: steps, ..failed } }
+    }
+
+    /// Begins beside where it began: moved by shares of its width, larger, turned.
+    fn displace(&mut self, [xs, ys]: &[Vec<f32>; 2], by: [f32; 2], larger: f32, turn: f32) {
+        let n = xs.len() as f32;
+        let (cx, cy) = (xs.iter().sum::<f32>() / n, ys.iter().sum::<f32>() / n);
+        let reach = |v: &[f32], c: f32| v.iter().map(|v| (v - c).abs()).fold(0.0, f32::max);
+        let width = 2.0 * reach(xs, cx);
+        let (a, b) = (larger * turn.cos(), larger * turn.sin());
+        for (((x, y), x0), y0) in self.x.iter_mut().zip(&mut self.y).zip(xs).zip(ys) {
+            let (dx, dy) = (x0 - cx, y0 - cy);
+            *x = cx + by[0] * width + a * dx - b * dy;
+            *y = cy + by[1] * width + b * dx + a * dy;
+        }
     }
 
     /// Finds the shape in the frame after one with this fit: begins with its points at the finest level, and at the
     /// coarsest where that fails. What moves by less than a fit trembles is held: see [`steady`](super::steady).
     #[must_use]
     pub fn follow(&mut self, grey: &Grey, before: &Fit) -> Fit {
-        let mut fit = self.fit(grey, Start::Near(&before.points));
+        let mut fit = self.fit(grey, Start::Near(&before.ended));
         if fit.confidence < 0.5 {
             let again = self.fit(grey, Start::Points(&before.points));
             if again.confidence > fit.confidence {
@@ -176,13 +236,8 @@ impl<'m> Fitter<'m> {
         self.begun[0].copy_from_slice(&self.x);
         self.begun[1].copy_from_slice(&self.y);
         let scale = self.state.scale();
-        self.ground.lay(
-            grey,
-            around(&self.x, &self.y, scale),
-            halvings(scale / level.width),
-            level.smooth,
-            level.channels,
-        );
+        let (halvings, smooth) = prepared(scale / level.width, level.smooth);
+        self.ground.lay(grey, around(&self.x, &self.y, scale), halvings, smooth, level.channels);
         self.ground.enter(&mut self.x, &mut self.y);
         shapes.project(&mut self.x, &mut self.y, level.modes, &mut self.state);
         let (first, from) = (self.state.scale(), self.state.at);
@@ -299,9 +354,10 @@ impl<'m> Fitter<'m> {
 
     fn said(&self, iterations: usize, last: Descent) -> Fit {
         let marked = self.x.iter().zip(&self.y).take(self.model.count());
-        let points = marked.map(|(x, y)| Point::new(f64::from(*x), f64::from(*y))).collect();
+        let points: Vec<Point> = marked.map(|(x, y)| Point::new(f64::from(*x), f64::from(*y))).collect();
         let State { a, b, at: [x, y], along } = &self.state;
         Fit {
+            ended: points.clone(),
             points,
             p: along.iter().map(|p| f64::from(*p)).collect(),
             q: Similarity { a: f64::from(*a), b: f64::from(*b), at: Point::new(f64::from(*x), f64::from(*y)) },
@@ -318,15 +374,16 @@ fn sane(v: f64) -> f32 {
     if v.is_finite() { v.clamp(-1e6, 1e6) as f32 } else { 0.0 }
 }
 
-/// How often a picture is halved that has so many pixels to one of the level: until there are fewer than 1.6.
-pub(super) fn halvings(ratio: f32) -> u32 {
+/// How often a picture is halved that has so many pixels to one of the level, until there are fewer than 1.6; and how often
+/// it is then smoothed that is smoothed `least` times anyway: once more where it is still finer than the level.
+pub(super) fn prepared(ratio: f32, least: u32) -> (u32, u32) {
     let mut left = ratio;
-    let mut count = 0;
-    while left >= 1.6 && count < 12 {
+    let mut halvings = 0;
+    while left >= 1.6 && halvings < 12 {
         left /= 2.0;
-        count += 1;
+        halvings += 1;
     }
-    count
+    (halvings, least + u32::from(left > 1.12))
 }
 
 /// The box of the points, and what lies round it.

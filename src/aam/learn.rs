@@ -3,7 +3,7 @@
 use super::appearance::textures;
 use super::detected::Detected;
 use super::file::WIDTHS;
-use super::fit::halvings;
+use super::fit::prepared;
 use super::grey::Grey;
 use super::ground::{Channels, Ground};
 use super::level::{Look, Texture};
@@ -186,7 +186,8 @@ fn reading(
     let first = Rect::from_points(points[0], points[0]);
     let region = points.iter().fold(first, |r, p| r.union_pt(*p)).inflate(0.1 * q.scale(), 0.1 * q.scale());
     let mut ground = Ground::default();
-    ground.lay(grey, region, halvings((q.scale() / width) as f32), smooth, channels);
+    let (halvings, smooth) = prepared((q.scale() / width) as f32, smooth);
+    ground.lay(grey, region, halvings, smooth, channels);
     ground.enter(&mut xs, &mut ys);
     let mut out = vec![0.0; table.len() * channels.count()];
     table.read(&ground, &xs, &ys, &mut out);

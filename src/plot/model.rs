@@ -31,27 +31,33 @@ pub fn model(model: &Model) -> Drawing {
         ("Mean face".to_owned(), page.face(&mean, 0, 0.0, false)),
         (format!("{} points: over the mean face", model.count()), page.face(&mean, 0, 0.0, true)),
         (format!("{triangles} triangles: {pixels} pixels and {parameters} parameters are fitted"), page.mesh(&mean)),
+        page.nothing(),
+        page.nothing(),
     ];
     let total: f64 = shapes.deviations().iter().map(|d| f64::from(d * d)).sum();
-    for (k, deviation) in shapes.deviations().iter().take(SHOWN).enumerate() {
-        let deviation = f64::from(*deviation);
-        let at = |by: f64| shapes.shape(&one(k, by * deviation));
-        let share = 100.0 * deviation * deviation / total.max(1e-300);
+    let (forms, looks) = (shapes.deviations().len().min(SHOWN), model.looks().min(SHOWN));
+    for k in 0..forms.max(looks) {
         let name = k + 1;
-        parts.push((format!("Shape {name}, \u{2212}{OUT} \u{3c3}"), page.face(&at(-OUT), 0, 0.0, true)));
-        let moves = page.moves(&at(-OUT), &at(OUT));
-        parts.push((
-            format!("Shape {name}: {share:.0} % of how shapes vary, from \u{2212}{OUT} to +{OUT} \u{3c3}"),
-            moves,
-        ));
-        parts.push((format!("Shape {name}, +{OUT} \u{3c3}"), page.face(&at(OUT), 0, 0.0, true)));
+        match shapes.deviations().get(k).filter(|_| k < forms).map(|d| f64::from(*d)) {
+            Some(deviation) => {
+                let at = |by: f64| shapes.shape(&one(k, by * deviation));
+                let share = 100.0 * deviation * deviation / total.max(1e-300);
+                let said =
+                    format!("Shape {name}: {share:.0} % of how shapes vary, from \u{2212}{OUT} to +{OUT} \u{3c3}");
+                parts.push((format!("Shape {name}, \u{2212}{OUT} \u{3c3}"), page.face(&at(-OUT), 0, 0.0, true)));
+                parts.push((said, page.moves(&at(-OUT), &at(OUT))));
+                parts.push((format!("Shape {name}, +{OUT} \u{3c3}"), page.face(&at(OUT), 0, 0.0, true)));
+            }
+            None => parts.extend([page.nothing(), page.nothing(), page.nothing()]),
+        }
+        if k < looks {
+            parts.push((format!("Look {name}, \u{2212}{OUT} \u{3c3}"), page.face(&mean, name, -OUT, false)));
+            parts.push((format!("Look {name}, +{OUT} \u{3c3}"), page.face(&mean, name, OUT, false)));
+        } else {
+            parts.extend([page.nothing(), page.nothing()]);
+        }
     }
-    for k in 1..=model.looks().min(SHOWN) {
-        parts.push((format!("Look {k}, \u{2212}{OUT} \u{3c3}"), page.face(&mean, k, -OUT, false)));
-        parts.push((format!("Look {k}: the mean between"), page.face(&mean, 0, 0.0, false)));
-        parts.push((format!("Look {k}, +{OUT} \u{3c3}"), page.face(&mean, k, OUT, false)));
-    }
-    let mut drawing = sheet(&parts, 3);
+    let mut drawing = sheet(&parts, 5);
     drawing.title = "A model".into();
     drawing
 }
@@ -88,6 +94,13 @@ impl<'m> Page<'m> {
         let mut drawing = chart("A face", "A face of the model.", size.width, size.height, items);
         drawing.background = Some(PAPER);
         drawing
+    }
+
+    /// A place that stays empty.
+    fn nothing(&self) -> (String, Drawing) {
+        let mut drawing = self.drawing(Vec::new());
+        drawing.background = None;
+        (String::new(), drawing)
     }
 
     /// A shape with the mean look, moved along one of its modes, and its points if wanted.
