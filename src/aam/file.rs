@@ -30,7 +30,7 @@ use crate::disk::{Fault, Result, read_bytes, write_whole};
 const MAGIC: &[u8; 4] = b"LPAM";
 const VERSION: u32 = 1;
 /// The largest file that is read.
-const MAX_BYTES: u64 = 64 << 20;
+const MAX_BYTES: u64 = 16 << 20;
 const MAX_MODES: u32 = 64;
 const MAX_LEVELS: u32 = 4;
 const MAX_TEXTURES: u32 = 128;

@@ -109,5 +109,5 @@ fn jpeg_luma(bytes: &[u8]) -> Option<Grey> {
         return None;
     }
     let pixels = decoder.decode().ok()?;
-    (width > 0 && height > 0 && pixels.len() == width * height).then(|| Grey { width, height, pixels })
+    (width > 0 && height > 0 && pixels.len() == width * height).then_some(Grey { width, height, pixels })
 }

@@ -61,7 +61,8 @@ impl Shapes {
             && mean.len() == 2 * count
             && modes.len() == deviations.len()
             && modes.iter().all(|m| m.len() == 2 * count)
-            && mean.iter().chain(modes.iter().flatten()).all(|v| v.abs() < 1e4)
+            // Its width is 1; what is made ready of it must stay of a size.
+            && mean.iter().chain(modes.iter().flatten()).all(|v| v.abs() <= 3.0)
             && deviations.iter().all(|d| (0.0..1e4).contains(d))
             && square > 1e-6;
         whole.then_some(Self { count, mean, modes, deviations, square })
