@@ -11,6 +11,7 @@ pub mod drawing;
 pub mod disk;
 pub mod photo;
 pub mod face;
+pub mod aam;
 pub mod emotion;
 pub mod script;
 pub mod timing;

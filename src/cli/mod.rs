@@ -1,6 +1,7 @@
 //! The commands: a thin face on the rooms. Every command reads its arguments, calls a room and prints; it decides
 //! nothing that a library user could want decided the same way.
 
+mod aam;
 mod align;
 mod check;
 mod completions;
@@ -44,6 +45,8 @@ enum Command {
     Export(export::Args),
     /// Find the points of a face in its photo, for its cartoon.
     Face(face::Args),
+    /// Train, fit and look at active appearance models of faces.
+    Aam(aam::Args),
     /// Play a clip's face in the terminal.
     Play(play::Args),
     /// Draw charts of a clip: ratios, change, timeline, faces, a frame.
@@ -96,6 +99,7 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
         Some(Command::Face(args)) => face::run(args, out),
+        Some(Command::Aam(args)) => aam::run(args, out),
         Some(Command::Play(args)) => play::run(args),
         Some(Command::Plot(args)) => plot::run(args, out),
         Some(Command::Convert(args)) => convert::run(args, out),

@@ -1,5 +1,5 @@
 //! Charts of a clip (paper figs. 4 to 7): ratios, change, timeline, faces with their ratios. And what is seen in a photo:
-//! the stages of finding a face (thesis figs. 3.6 to 3.18), its points, contact sheets.
+//! the stages of finding a face (thesis figs. 3.6 to 3.18), its points, contact sheets; and what a model has learned.
 //!
 //! It makes drawings from plain values; where the values come from and what file the chart goes to is not its
 //! business. Colours are told apart by colour-blind eyes (Okabe and Ito 2008), and every curve carries its letter.
@@ -7,6 +7,7 @@
 mod axes;
 mod curves;
 mod faces;
+mod model;
 mod pixels;
 mod points;
 mod score;
@@ -15,6 +16,7 @@ mod stages;
 
 pub use curves::{Samples, change, ratios};
 pub use faces::{faces, frame};
+pub use model::model;
 pub use points::{face_over, points_over};
 pub use score::{Row, timeline};
 pub use sheet::sheet;

@@ -1,0 +1,39 @@
+//! Frames that follow each other: what trembles is held, what moves is let go.
+//!
+//! The noise of a camera and of its packing makes a fit tremble by a few hundredths of a pixel. Each number of the pose and
+//! of the shape takes of its change `d` the share `d² / (d² + s²)`, where `s` is how far it trembles: as Wiener's filter
+//! would that expects changes as large as the one at hand. A blink or a plosive changes by a hundred times `s` and passes
+//! within the frame; nothing lags.
+
+use super::fit::Fit;
+use super::pose::Similarity;
+use super::shape::Shapes;
+use crate::geometry::Point;
+
+/// How far a number trembles: the root mean square by which it moves the points, in widths of the mean shape.
+/// Measured on 1241 frames of a man talking.
+const TREMBLE: f64 = 0.0023;
+
+/// Holds what has hardly changed since the frame before.
+pub(super) fn steadied(shapes: &Shapes, before: &Fit, fit: &mut Fit) {
+    // How far points lie from the middle, by root mean square, in widths.
+    let count = shapes.count() as f64;
+    let radius = (shapes.mean().iter().map(|p| p.to_vec2().hypot2()).sum::<f64>() / count).sqrt();
+    let scale = before.q.scale().max(1e-9);
+    // A number that moves the points by `per` a unit.
+    let held = |from: f64, to: f64, per: f64| {
+        let (by, tremble) = (to - from, TREMBLE / per);
+        from + by * (by * by / (by * by + tremble * tremble))
+    };
+    let (q, last) = (fit.q, before.q);
+    let a = held(last.a, q.a, radius / scale);
+    let b = held(last.b, q.b, radius / scale);
+    let x = held(last.at.x, q.at.x, 1.0 / scale);
+    let y = held(last.at.y, q.at.y, 1.0 / scale);
+    fit.q = Similarity { a, b, at: Point::new(x, y) };
+    for (p, last) in fit.p.iter_mut().zip(&before.p) {
+        *p = held(*last, *p, 1.0 / count.sqrt());
+    }
+    let q = fit.q;
+    fit.points = shapes.shape(&fit.p).into_iter().take(fit.points.len()).map(|p| q.apply(p)).collect();
+}
