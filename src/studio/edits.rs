@@ -233,8 +233,9 @@ fn is_first_emotion(clip: &Clip) -> bool {
 }
 
 fn take_reading(state: &mut State, number: usize, index: usize, text: &str) -> Result<(), String> {
-    let found = state.clip().and_then(|c| Some((c.syllables.get(index)?.text.clone(), c.intervals().get(index)?)));
-    let Some((written, interval)) = found else { return Ok(()) };
+    let found = state.clip().and_then(|c| Some((c.syllables.get(index)?, c.intervals().get(index)?)));
+    let Some((syllable, interval)) = found else { return Ok(()) };
+    let (written, is_now) = (syllable.text.clone(), syllable.reading());
     let before = interval.label.clone();
     let (after, label) = match text {
         "" => (written.clone(), format!("{written} read as usual")),
@@ -245,7 +246,9 @@ fn take_reading(state: &mut State, number: usize, index: usize, text: &str) -> R
                 )
             })?;
             let tone = if read.tone().is_none() { ", neutral tone or no tone given" } else { "" };
-            (format!("{written}{{{read}}}"), format!("{written} read {read}{tone}"))
+            // What the prompt came with, taken as it is, is no change.
+            let after = if Some(read) == is_now { before.clone() } else { format!("{written}{{{read}}}") };
+            (after, format!("{written} read {read}{tone}"))
         }
     };
     if after == before {
