@@ -5,7 +5,6 @@ use super::Clip;
 use super::doubts::CONFIDENCE;
 use super::label::label_fits;
 use crate::disk::{Fault, Result};
-use crate::pose::MouthShape;
 use crate::script::{self, Syllable, System};
 use crate::timeline::Spoken;
 use crate::timing::{self, Interval, Tier, Timing};
@@ -19,13 +18,7 @@ const LEAST_ROOM: f64 = 0.05;
 impl Clip {
     /// Checks times against the script and takes them.
     pub(super) fn take_timing(&mut self, mut timing: Timing) -> Result<()> {
-        if let Some(wrong) = timing.tier("shapes").and_then(|t| t.spoken().find(|i| shape_of(&i.label).is_none())) {
-            return Err(Fault::new(format!(
-                "`{}` at {:.3} s in the tier `shapes` is no mouth shape",
-                wrong.label, wrong.start
-            ))
-            .help("shapes: m f h a i u e o n, and h' for h"));
-        }
+        timing.shapes().map_or(Ok(()), timing::check_shapes)?;
         let Some(tier) = self.syllable_tier(&timing).cloned() else {
             if timing.shapes().is_none() {
                 let names: Vec<&str> = timing.tiers.iter().map(|t| t.name.as_str()).collect();
@@ -160,12 +153,6 @@ pub(super) fn phones_of(tier: &Tier, syllable: &Syllable, interval: &Interval) -
     (same && !names.is_empty()).then(|| inside.iter().map(|i| (i.start, i.end)).collect())
 }
 
-/// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).
-fn shape_of(label: &str) -> Option<MouthShape> {
-    let label = label.trim();
-    label.strip_suffix(['\'', '’']).unwrap_or(label).parse().ok()
-}
-
 /// Mouth shapes with times of their own: touching ones are one utterance.
 pub(super) fn of_shapes(tier: &Tier) -> Vec<Spoken> {
     const TOUCHING: f64 = 1e-3;
@@ -180,7 +167,8 @@ pub(super) fn of_shapes(tier: &Tier) -> Vec<Spoken> {
         .filter_map(|run| {
             let (start, end) = (run.first()?.start, run.last()?.end);
             let share = |t: f64| if end > start { (t - start) / (end - start) } else { 0.0 };
-            let shapes = run.iter().filter_map(|i| shape_of(&i.label).map(|s| (share(i.start), s))).collect();
+            let shapes =
+                run.iter().filter_map(|i| timing::mouth_shape(&i.label).map(|s| (share(i.start), s))).collect();
             Some(Spoken { start, end, shapes, exact: true })
         })
         .collect()

@@ -252,7 +252,7 @@ pub fn writable(timing: &Timing, format: Format) -> Result<()> {
             Fault::new(format!("`{format}` holds mouth shapes, and there is no tier `{}`", shapes::TIER))
                 .help("write it as textgrid, srt, vtt, csv, json, audacity, ctm or lab")
         };
-        return shapes::check(timing.shapes().ok_or_else(none)?);
+        return shapes::check_shapes(timing.shapes().ok_or_else(none)?);
     }
     let nothing = timing.subtitles().is_none_or(|tier| tier.intervals.is_empty());
     if nothing && format.holds_one_tier() {
@@ -296,7 +296,7 @@ pub fn write_tier(timing: &Timing, format: Format, name: &str) -> Result<String>
     };
     let mut tier = tier.clone();
     if format.holds_shapes() {
-        shapes::check(&tier)?;
+        shapes::check_shapes(&tier)?;
         shapes::TIER.clone_into(&mut tier.name);
     }
     let alone = Timing { tiers: vec![tier], ..*timing };

@@ -27,6 +27,7 @@ pub use format::{Format, parse, read, read_at, writable, write, write_tier};
 pub use guess::equal_shares;
 pub use matching::{Parting, common, first_parting, fitting_tier, match_labels};
 pub use moho::FPS as MOHO_FPS;
+pub use shapes::{check_shapes, mouth_shape};
 pub use tiers::{Interval, Tier, Timing, is_silence_mark};
 
 /// The latest time that is read, in seconds: 100 hours, which is what two digits of hours can say.

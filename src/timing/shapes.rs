@@ -111,29 +111,31 @@ pub(super) fn tiled(tier: &Tier, end: f64, naming: Naming) -> Vec<(f64, f64, &'s
     let mut until = 0.0;
     for i in &tier.intervals {
         lay(until, i.start, naming.theirs(None));
-        lay(i.start, i.end, naming.theirs(shape(&i.label)));
+        lay(i.start, i.end, naming.theirs(mouth_shape(&i.label)));
         until = i.end;
     }
     lay(until, end, naming.theirs(None));
     cues
 }
 
-/// Our shape that a label names; h' is h.
-fn shape(label: &str) -> Option<MouthShape> {
-    label.trim().trim_end_matches(['\'', '’']).parse().ok()
+/// The mouth shape that a label of the tier `shapes` names; h' is drawn as h (thesis table 5.3).
+#[must_use]
+pub fn mouth_shape(label: &str) -> Option<MouthShape> {
+    let label = label.trim();
+    label.strip_suffix(['\'', '’']).unwrap_or(label).parse().ok()
 }
 
 /// Makes sure that every label of a tier is a shape.
 ///
 /// # Errors
 /// With the first that is none.
-pub(super) fn check(tier: &Tier) -> Result<()> {
-    let wrong = |i: &&Interval| shape(&i.label).is_none();
+pub fn check_shapes(tier: &Tier) -> Result<()> {
+    let wrong = |i: &&Interval| mouth_shape(&i.label).is_none();
     match tier.spoken().find(wrong) {
         None => Ok(()),
         Some(i) => {
             let place = format!("`{}` at {:.3} s in the tier `{}` is no mouth shape", i.label, i.start, tier.name);
-            Err(Fault::new(place.replace('\n', " ")).help("shapes: m f h a i u e o n"))
+            Err(Fault::new(place.replace('\n', " ")).help("shapes: m f h a i u e o n, and h' for h"))
         }
     }
 }
