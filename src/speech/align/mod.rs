@@ -15,6 +15,7 @@ mod fourier;
 pub mod lasting;
 pub mod model;
 mod outcome;
+mod reach;
 pub mod search;
 pub mod sections;
 pub mod units;
