@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::change::Times;
 use super::doubts::{CONFIDENCE, NOT_HEARD, NOT_IN_SCRIPT};
-use super::{Change, Clip, Edit, Lesson};
+use super::{Change, Clip, Edit, Lesson, counted};
 use crate::disk::{Fault, Result};
 use crate::script::{self, Syllable};
 use crate::speech::{self, Alignment, Note, Pin, Sound, Take};
@@ -107,7 +107,7 @@ impl Lesson {
             return None;
         }
         let edit = Edit::Timing { clip: number, before: Box::new(before), after: Box::new(after) };
-        Some(Change::one(format!("{} aligned", counted(alignment.syllables.len())), edit))
+        Some(Change::one(format!("{} aligned", counted(alignment.syllables.len(), "syllable")), edit))
     }
 
     /// Gives a clip the times that were found, in memory only: for an export of a lesson that has never been aligned.
@@ -118,10 +118,6 @@ impl Lesson {
             clip.read_labels();
         }
     }
-}
-
-fn counted(syllables: usize) -> String {
-    if syllables == 1 { "1 syllable".into() } else { format!("{syllables} syllables") }
 }
 
 /// What a clip has once the times that were found are its own. The labels of syllables stay as they are, and so do

@@ -194,6 +194,7 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     found
 }
 
-fn counted(count: usize, what: &str) -> String {
+/// So many of something, in words: `1 clip`, `2 clips`.
+pub(crate) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -23,6 +23,7 @@ mod times;
 
 pub use align::{AlignJob, tiers_of};
 pub use change::{Change, Edit, Spot, Times};
+pub(crate) use check::counted;
 pub use check::{Finding, check, check_quality};
 pub use clip::{Clip, LABEL_LIMIT};
 pub use create::{Made, NewLesson, create};

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::change::{Times, in_order, same_times, stale, take_own};
 use super::doubts::{CONFIDENCE, NOT_IN_SCRIPT};
 use super::label::label_fits;
-use super::{Change, Clip, Edit, Lesson};
+use super::{Change, Clip, Edit, Lesson, counted};
 use crate::disk::{Fault, Result, clean_line};
 use crate::script::{self, Syllable, System};
 use crate::timing::{self, Interval, Tier};
@@ -154,8 +154,4 @@ fn inserted(clip: &Clip, at: usize, text: &str) -> String {
 /// Whether a letter would run into the one beside it.
 fn parts(c: char) -> bool {
     c.is_alphanumeric()
-}
-
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -180,7 +180,7 @@ fn take(state: &mut State, number: usize, of: &Standing, asked: bool, alignment:
     }
     let Some(clip) = state.lesson().and_then(|l| l.clips.get(number)) else { return };
     let doubts = clip.doubts().len();
-    let what = format!("aligned {}", super::counted(alignment.syllables.len(), "syllable"));
+    let what = format!("aligned {}", crate::project::counted(alignment.syllables.len(), "syllable"));
     let name = if state.editor.as_ref().is_some_and(|e| e.clip == number) { "" } else { &format!("{name}: ") };
     let which = match (is_new, asked) {
         (false, _) => format!("{name}the times are as they were found"),

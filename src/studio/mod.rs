@@ -53,8 +53,3 @@ pub use state::{Hear, Listed, Message, Open, State};
 pub use studio::{Report, Studio};
 pub use tapping::{Phase, Tap, Tapping};
 pub use window::Window;
-
-/// A number with what it counts: `1 syllable`, `3 places`.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}

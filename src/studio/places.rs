@@ -3,11 +3,12 @@
 
 use std::path::Path;
 
+use super::edits;
 use super::execute::Job;
 use super::overlay::Purpose;
 use super::state::State;
-use super::{counted, edits};
 use crate::project::Clip;
+use crate::project::counted;
 use crate::speech::Heard;
 
 /// A place that overlaps a syllable by more than this, in seconds, is that syllable's.

@@ -1,10 +1,10 @@
 //! What the keys do while syllables are tapped, and the change that tapping makes of the lesson.
 
 use super::action::Action;
-use super::counted;
 use super::execute::Job;
 use super::state::{Hear, State};
 use super::tapping::{Passed, Tapping};
+use crate::project::counted;
 use crate::project::{Change, Clip, Edit};
 
 /// How much of the sound is heard before the cursor, so that nobody has to tap at once, in seconds.
