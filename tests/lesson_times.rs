@@ -27,6 +27,12 @@ fn lesson(script: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, root)
 }
 
+/// Leaves a lesson as it was before it was ever aligned.
+fn forget_times(root: &Path) {
+    std::fs::remove_file(root.join("clips/hello/timing.TextGrid")).unwrap();
+    std::fs::remove_file(root.join("clips/hello/score.toml")).unwrap();
+}
+
 fn times(lesson: &Lesson) -> Vec<(f64, f64)> {
     lesson.clips[0].intervals().iter().map(|i| (i.start, i.end)).collect()
 }
@@ -103,9 +109,7 @@ fn phones_and_words_go_with_the_syllable_they_are_in_and_come_back_with_it() {
 #[test]
 fn an_alignment_is_one_change_that_undo_takes_back() {
     let (_folder, root) = lesson("您好。");
-    // As a lesson was before it was ever aligned.
-    std::fs::remove_file(root.join("clips/hello/timing.TextGrid")).unwrap();
-    std::fs::remove_file(root.join("clips/hello/score.toml")).unwrap();
+    forget_times(&root);
     let mut lesson = Lesson::open(&root).unwrap();
     assert!(lesson.clips[0].timing.guessed && lesson.clips[0].wants_alignment());
     let guessed = times(&lesson);
@@ -255,8 +259,7 @@ fn the_command_says_what_is_missing_and_leaves_other_people_s_times_alone() {
 #[test]
 fn an_export_of_a_lesson_that_was_never_aligned_finds_its_times_and_leaves_it_as_it_is() {
     let (_folder, root) = lesson("您好。");
-    std::fs::remove_file(root.join("clips/hello/timing.TextGrid")).unwrap();
-    std::fs::remove_file(root.join("clips/hello/score.toml")).unwrap();
+    forget_times(&root);
     let out = root.parent().unwrap().join("out");
     let (code, _, err) =
         lianpu(&["export", &root.display().to_string(), "--to", "textgrid,poses", "--out", &out.display().to_string()]);
@@ -341,8 +344,7 @@ fn tiers_that_are_somebody_else_s_stay_through_an_alignment_and_its_undo() {
 #[test]
 fn an_alignment_that_was_saved_and_then_taken_back_is_gone_when_the_lesson_is_opened_again() {
     let (_folder, root) = lesson("您好。");
-    std::fs::remove_file(root.join("clips/hello/timing.TextGrid")).unwrap();
-    std::fs::remove_file(root.join("clips/hello/score.toml")).unwrap();
+    forget_times(&root);
     let mut lesson = Lesson::open(&root).unwrap();
     align(&mut lesson);
     lesson.save().unwrap();
