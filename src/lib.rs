@@ -16,6 +16,7 @@ pub mod emotion;
 pub mod script;
 pub mod timing;
 pub mod speech;
+pub mod track;
 pub mod timeline;
 pub mod figure;
 pub mod plot;

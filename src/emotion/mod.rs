@@ -1,12 +1,20 @@
-//! The record of emotions: the seven ratios of every frame as tracking found them, and beside them the gaze, lids,
-//! mouth and head of the same frames. Both are tables that a person can read, as CSV or (ratios) JSON.
+//! Emotions: a person's calibration, the seven ratios of a shape, and the record of them over time. Beside the ratios
+//! the record has the gaze, lids, mouth and head of the same frames.
 //!
-//! It does not find ratios in pictures, and an author's changes to them are the `timeline`'s.
+//! It does not find shapes in videos, which is the room `track`'s, and an author's changes are the `timeline`'s.
 
+mod binding;
+mod calibration;
+mod decompose;
+mod lpr;
 mod record;
 mod table;
 mod tracks;
 
+pub use binding::Binding;
+pub use calibration::{Calibration, Shape, Source};
+pub use decompose::{Choice, Decomposition, Reading};
+pub use lpr::{LprReader, LprWriter, Moment};
 pub use record::{Record, Row};
 pub(crate) use table::decimal;
 pub use tracks::{MouthMoves, TrackRow, Tracks};

@@ -1,0 +1,103 @@
+//! A calibration: the shapes of a person's seven emotions, by which ratios are told.
+
+use super::{Binding, Choice, Decomposition, Reading};
+use crate::aam::Similarity;
+use crate::disk::{Fault, Result};
+use crate::face::FeaturePoint as P;
+use crate::geometry::Point;
+
+/// How the shape of an emotion came to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Source {
+    /// Somebody marked its points, all or those that were wrong.
+    Marked,
+    /// The points were found in its photo, this surely (0 to 1).
+    Found(f64),
+    /// There is no photo of it: it is the neutral shape, moved as the rig moves a face.
+    Modelled,
+}
+
+/// The shape of one emotion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Its points: pixels of its photo, or of the neutral one where it is modelled.
+    pub points: Vec<Point>,
+    /// How it came to be.
+    pub source: Source,
+}
+
+/// A person's seven shapes (paper sec. 3.2), and how named points hang on theirs.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    shapes: [Shape; 7],
+    binding: Binding,
+    /// The shapes in the frame of the neutral one's pupils: distance 1, origin midway, laid over it.
+    laid: [Vec<Point>; 7],
+    decomposition: Decomposition,
+}
+
+impl Calibration {
+    /// From the seven shapes in canonical order.
+    ///
+    /// # Errors
+    /// When they have different numbers of points, all are alike, or the neutral one's pupils coincide.
+    pub fn new(shapes: [Shape; 7], binding: Binding) -> Result<Self> {
+        let neutral = &shapes[0].points;
+        let (Some(left), Some(right)) = (binding.at(neutral, P::P3_6), binding.at(neutral, P::P3_5)) else {
+            return Err(Fault::new("the eyes of the neutral shape are not known"));
+        };
+        let across = right - left;
+        if across.hypot() < 1e-6 {
+            return Err(Fault::new("the pupils of the neutral shape coincide"));
+        }
+        let frame = Similarity { a: across.x, b: across.y, at: left.midpoint(right) };
+        let first: Vec<Point> = neutral.iter().map(|p| frame.undo(*p)).collect();
+        let mut laid: [Vec<Point>; 7] = Default::default();
+        for (to, shape) in laid.iter_mut().zip(&shapes) {
+            *to = over(&shape.points, &first).ok_or_else(|| Fault::new("a shape has no extent, or other points"))?;
+        }
+        let decomposition = Decomposition::new(&laid)?;
+        Ok(Self { shapes, binding, laid, decomposition })
+    }
+
+    /// The shapes as they were given, by emotion.
+    #[must_use]
+    pub fn shapes(&self) -> &[Shape; 7] {
+        &self.shapes
+    }
+
+    /// How named points hang on its points.
+    #[must_use]
+    pub fn binding(&self) -> &Binding {
+        &self.binding
+    }
+
+    /// The shapes laid over the neutral one, in the frame of its pupils: their distance 1, the origin midway.
+    #[must_use]
+    pub fn laid(&self) -> &[Vec<Point>; 7] {
+        &self.laid
+    }
+
+    /// The similarity that lays a shape over the neutral one: the q of eq. 5, which is dropped.
+    #[must_use]
+    pub fn lay(&self, shape: &[Point]) -> Option<Similarity> {
+        (shape.len() == self.laid[0].len()).then(|| Similarity::between(shape, &self.laid[0]))?
+    }
+
+    /// The ratios of a shape in whatever place, turn and size; none for another number of points.
+    #[must_use]
+    pub fn read(&self, shape: &[Point], choice: Choice) -> Option<Reading> {
+        let q = self.lay(shape)?;
+        let laid: Vec<Point> = shape.iter().map(|p| q.apply(*p)).collect();
+        Some(self.decomposition.read(&laid, choice))
+    }
+}
+
+/// A shape laid over another by a similarity.
+fn over(shape: &[Point], onto: &[Point]) -> Option<Vec<Point>> {
+    if shape.len() != onto.len() {
+        return None;
+    }
+    let q = Similarity::between(shape, onto)?;
+    Some(shape.iter().map(|p| q.apply(*p)).collect())
+}
