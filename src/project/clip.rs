@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::change::Times;
 use super::label::label_reading;
 use super::manifest::ClipEntry;
+use super::video;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
@@ -35,6 +36,8 @@ pub struct Clip {
     pub sound: Option<Arc<Sound>>,
     /// Where the recording is.
     pub sound_path: Option<PathBuf>,
+    /// Where its video is: a folder of pictures, or a file.
+    pub video: Option<PathBuf>,
     /// The ratio record.
     pub record: Option<Record>,
     /// Eyes, mouth and head from a video.
@@ -49,6 +52,8 @@ pub struct Clip {
     pub(super) plain: Vec<Syllable>,
     /// The script as its file has it, or as the labels of the timing gave it.
     pub(super) kept_script: String,
+    /// Whether an edit has changed what was found in the video since it was read or written.
+    pub(super) footage_changed: bool,
     /// Length of the sound in seconds, 0 without one.
     sound_seconds: f64,
 }
@@ -59,6 +64,8 @@ pub(super) struct Seen {
     pub(super) script: Option<u32>,
     pub(super) timing: Option<u32>,
     pub(super) score: Option<u32>,
+    pub(super) ratios: Option<u32>,
+    pub(super) tracks: Option<u32>,
 }
 
 impl Clip {
@@ -88,6 +95,7 @@ impl Clip {
             timing: Timing::default(),
             sound: None,
             sound_path: sound_file(root, &folder)?,
+            video: video::of(root, &folder)?,
             record: None,
             tracks: None,
             score: Score::default(),
@@ -95,6 +103,7 @@ impl Clip {
             seen: Seen::default(),
             plain: Vec::new(),
             kept_script: String::new(),
+            footage_changed: false,
             sound_seconds: 0.0,
         };
         if let Some((path, script)) = text("script.txt")? {
@@ -111,9 +120,11 @@ impl Clip {
         }
         if let Some((path, text)) = text("ratios.csv")? {
             clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
+            clip.seen.ratios = super::save::checksum(&path);
         }
         if let Some((path, text)) = text("tracks.csv")? {
             clip.tracks = Some(Tracks::parse(&text).map_err(|f| f.at(&path))?);
+            clip.seen.tracks = super::save::checksum(&path);
         }
         if let Some((path, text)) = text("score.toml")? {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;

@@ -4,15 +4,15 @@
 use std::path::{Path, PathBuf};
 
 use super::clip::SOUNDS;
-use super::face::FACE_FILE;
+use super::brought::{Brought, copy_video, frame_of, write_face};
+use super::video::FRAMES_FPS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::{AlignJob, Lesson};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::Record;
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
-use crate::geometry::Point;
-use crate::photo::{Photo, sha256, to_clean_png};
+use crate::pose::Emotion;
 use crate::script::System;
 use crate::speech::Note;
 use crate::timing::{self, Format};
@@ -39,6 +39,14 @@ pub struct NewLesson {
     pub neutral: Option<PathBuf>,
     /// Where its face is, in pixels of the photo, where it is not found.
     pub anchors: Option<Anchors>,
+    /// Photos of the same person's other emotions.
+    pub shots: Vec<(Emotion, PathBuf)>,
+    /// A video of the person: a file, or a folder of pictures.
+    pub video: Option<PathBuf>,
+    /// Frames a second of a video that is a folder of pictures.
+    pub video_fps: Option<f64>,
+    /// The number of the frame that is the neutral photo where none is given; the first where left out.
+    pub neutral_frame: Option<usize>,
     /// The figure.
     pub figure: Option<String>,
 }
@@ -69,10 +77,20 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     if taken {
         return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
     }
-    let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some();
+    let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some() || new.video.is_some();
     if !has_clip && new.neutral.is_none() {
-        return Err(Fault::new("a lesson needs a photo, a recording, times, or ratios")
-            .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, or --ratios FILE")
+        return Err(Fault::new("a lesson needs a photo, a recording, times, ratios, or a video")
+            .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, --ratios FILE, or --video FILE")
+            .of_the_call());
+    }
+    if !new.shots.is_empty() && new.neutral.is_none() && new.video.is_none() {
+        return Err(Fault::new("shots of emotions are measured from the neutral face")
+            .help("give --neutral PHOTO too")
+            .of_the_call());
+    }
+    if new.ratios.is_some() && new.video.is_some() {
+        return Err(Fault::new("the ratios of a clip are those of its video, or those of a file")
+            .help("give --video or --ratios")
             .of_the_call());
     }
     if new.script.is_some() && !has_clip {
@@ -84,15 +102,18 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let figure = new.figure.as_deref().unwrap_or(if new.neutral.is_some() { CARTOON } else { "line" });
+    let has_face = new.neutral.is_some() || new.video.is_some();
+    let figure = new.figure.as_deref().unwrap_or(if has_face { CARTOON } else { "line" });
     if figure != CARTOON {
         LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
-    } else if new.neutral.is_none() {
+    } else if !has_face {
         return Err(Fault::new("a cartoon needs a photo").help("give --neutral PHOTO").of_the_call());
     }
     check_inputs(new)?;
     // Before a folder is made: a photo in which no face is found leaves nothing behind.
-    let face = new.neutral.as_deref().map(|path| NewFace::of(path, new.anchors)).transpose()?;
+    let face = neutral(new)?;
+    let shots =
+        new.shots.iter().map(|(e, path)| Ok((*e, Brought::read(path)?))).collect::<Result<Vec<(Emotion, Brought)>>>()?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")
@@ -104,12 +125,18 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
         script_system: new.system.filter(|s| *s != System::Auto),
         onsets: Default::default(),
         take_of: None,
+        video_fps: new.video_fps.filter(|_| new.video.as_deref().is_some_and(Path::is_dir)),
     };
     if has_clip {
         fill(draft.path(), &clip, new)?;
     }
-    if let Some(face) = &face {
-        face.write(&draft.path().join("faces").join(FACE))?;
+    let faces = draft.path().join("faces").join(FACE);
+    if let Some((photo, created)) = &face {
+        photo.write(&faces, Emotion::Neutral)?;
+        write_face(&faces, created)?;
+    }
+    for (emotion, shot) in &shots {
+        shot.write(&faces, *emotion)?;
     }
     let manifest = Manifest {
         title: clean_line(new.title.as_deref().unwrap_or(&name), 200),
@@ -146,7 +173,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
         Fault::io("cannot make the lesson's folder", root, e)
     })?;
     open_to_others(root);
-    let warnings = face.map_or_else(Vec::new, |f| f.created.warnings);
+    let warnings = face.map_or_else(Vec::new, |(_, created)| created.warnings);
     Ok(Made { lesson: Lesson::read(root)?, warnings, notes })
 }
 
@@ -175,36 +202,22 @@ fn find_times(lesson: &mut Lesson) -> Result<Vec<String>> {
 const FACE: &str = "teacher";
 /// The figure that is drawn from a photo.
 const CARTOON: &str = "cartoon";
-/// A photo is kept at most so many pixels wide and high: a cartoon needs no more, and a repository thanks for it.
-const KEPT_SIDE: usize = 2000;
-
-/// The face of a new lesson: its photo as it is kept, without anything but its pixels, and what was found in it.
-struct NewFace {
-    png: Vec<u8>,
-    created: Created,
-}
-
-impl NewFace {
-    fn of(path: &Path, anchors: Option<Anchors>) -> Result<Self> {
-        let photo = Photo::read(path)?;
-        let (kept, factor) = photo.at_most(KEPT_SIDE);
-        let small = |p: Point| Point::new(p.x / factor, p.y / factor);
-        let anchors = anchors.map(|a| Anchors {
-            left_eye: small(a.left_eye),
-            right_eye: small(a.right_eye),
-            mouth: small(a.mouth),
-            chin: small(a.chin),
-        });
-        let png = to_clean_png(&kept)?;
-        let created = crate::face::create(&kept, &sha256(&png), None, anchors.as_ref()).map_err(|f| f.at(path))?;
-        Ok(Self { png, created })
+/// The neutral photo of a new lesson, from a photo or a video, and the face in it.
+fn neutral(new: &NewLesson) -> Result<Option<(Brought, Created)>> {
+    if let Some(path) = &new.neutral {
+        let photo = Brought::read(path)?;
+        let created = photo.face(new.anchors).map_err(|f| f.at(path))?;
+        return Ok(Some((photo, created)));
     }
-
-    fn write(&self, folder: &Path) -> Result<()> {
-        std::fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
-        write_whole(&folder.join("neutral.png"), &self.png)?;
-        write_whole(&folder.join(FACE_FILE), self.created.face.to_toml().as_bytes())
-    }
+    let Some(video) = &new.video else { return Ok(None) };
+    let number = new.neutral_frame.unwrap_or(0);
+    let photo = frame_of(video, new.video_fps.unwrap_or(FRAMES_FPS), number)?;
+    let created = photo.face(new.anchors).map_err(|f| {
+        Fault::new(format!("frame {number} cannot be the neutral face: {}", f.what()))
+            .at(video)
+            .help("name one that shows it at rest, from the front: --neutral-frame N, or give --neutral PHOTO")
+    })?;
+    Ok(Some((photo, created)))
 }
 
 /// Reads every input where it is, before a folder is made, so that a fault names the author's file and nothing is left.
@@ -242,6 +255,9 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
     }
     if let Some(path) = &new.ratios {
         write_whole(&folder.join("ratios.csv"), read_text(path)?.as_bytes())?;
+    }
+    if let Some(path) = &new.video {
+        copy_video(path, &folder)?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use ratatui::style::{Modifier, Style};
 
 use super::{BOLD, DIM, cells, put, put_short};
 use crate::pose::Emotion;
-use crate::project::Clip;
+use crate::project::{Clip, Concern};
 use crate::studio::editor::Editor;
 use crate::studio::edits;
 use crate::studio::keys::{Place, help_of};
@@ -110,7 +110,7 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
         let mark = match confidence {
             _ if clip.score.pins.contains(&index) => "   by hand".to_owned(),
             _ if guessed => "   guessed?".to_owned(),
-            Some(_) if doubt.is_some_and(|d| !d.heard) => "   not heard!".to_owned(),
+            Some(_) if doubt.is_some_and(|d| d.what == Concern::NotHeard) => "   not heard!".to_owned(),
             Some(c) => format!("   {:.0} % sure{}", c * 100.0, if doubtful { "!" } else { "" }),
             None => String::new(),
         };
