@@ -1,5 +1,18 @@
 //! A calibration: the shapes of a person's seven emotions, by which ratios are told.
 
+mod calibrate;
+mod finding;
+mod inputs;
+mod moves;
+mod person;
+mod quality;
+mod spread;
+mod warped;
+
+pub use calibrate::{Calibrated, calibrate};
+pub use inputs::{Inputs, ShotInput};
+pub use quality::Quality;
+
 use super::{Binding, Choice, Decomposition, Reading};
 use crate::aam::Similarity;
 use crate::disk::{Fault, Result};

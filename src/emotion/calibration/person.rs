@@ -1,0 +1,70 @@
+//! The person's own model: trained on the shots, and on what the rig makes of them where they are few.
+
+use super::calibrate::{Ground, Known};
+use super::warped::bent;
+use crate::aam::{Fitter, Grey, Kind, Model, Options, Start};
+use crate::disk::Result;
+use crate::geometry::{Point, Vec2};
+use crate::pose::{Emotion, MouthShape};
+
+/// A trained model.
+pub(super) struct Taught {
+    pub model: Model,
+}
+
+/// Made pictures have a face of about so many pixels between the pupils: what a model looks at is smaller still.
+const MADE: f64 = 60.0;
+
+/// The moves of named points of which pictures are made: emotions, speech, blinks, glances, a head that turns.
+fn made_moves(ground: &Ground) -> Vec<Vec<Vec2>> {
+    let m = &ground.moves;
+    let mut list: Vec<Vec<Vec2>> = Emotion::ALL[1..].iter().map(|e| m.emotion(*e)).collect();
+    list.extend(MouthShape::ALL.iter().map(|s| m.mouth(*s, 0.8)));
+    list.extend([m.lids(0.0, 0.0), m.lids(0.5, 0.5)]);
+    list.extend([m.gaze(0.5, 0.0), m.gaze(-0.5, 0.0), m.gaze(0.0, 0.4)]);
+    list.extend([m.head(0.12, 0.0), m.head(-0.12, 0.0), m.head(0.0, 0.12), m.head(0.0, -0.12)]);
+    list
+}
+
+/// Pictures that the rig makes of the neutral shot.
+fn made(ground: &Ground, neutral: &Known) -> Vec<(Grey, Vec<Point>)> {
+    let scale = (MADE / ground.frame.scale()).min(1.0);
+    let moves = made_moves(ground);
+    moves.iter().map(|m| bent(neutral.grey, &neutral.points, &ground.on_neutral(m), scale)).collect()
+}
+
+/// Lets the points of found shots settle where the person's own look agrees.
+pub(super) fn settle(ground: &Ground, known: &mut [Option<Known>; 7]) -> Result<()> {
+    let Some(neutral) = known[0].clone() else { return Ok(()) };
+    if known.iter().flatten().all(|k| k.hands.iter().all(|h| *h)) {
+        return Ok(());
+    }
+    let made = made(ground, &neutral);
+    let mut pairs: Vec<(&Grey, &[Point])> = vec![(neutral.grey, &neutral.points)];
+    pairs.extend(made.iter().map(|(g, p)| (g, &p[..])));
+    let options = Options { detect: false, ..Options::of(Kind::Person) };
+    let model = Model::train(&pairs, &options)?;
+    let mut fitter = Fitter::new(&model);
+    for shot in known.iter_mut().flatten().filter(|k| k.hands.iter().any(|h| !*h)) {
+        let fit = fitter.fit(shot.grey, Start::Near(&shot.points));
+        shot.look = fit.confidence;
+        if std::env::var("AAM").is_ok() {
+            for ((p, to), hand) in shot.points.iter_mut().zip(&fit.points).zip(&shot.hands) {
+                if !hand {
+                    *p = *to;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Trains on the shots and on what the rig makes of the neutral one.
+pub(super) fn train(ground: &Ground, known: &[Option<Known>; 7]) -> Result<Taught> {
+    let shots: Vec<&Known> = known.iter().flatten().collect();
+    let made = known[0].as_ref().map(|n| made(ground, n)).unwrap_or_default();
+    let mut pairs: Vec<(&Grey, &[Point])> = shots.iter().map(|k| (k.grey, &k.points[..])).collect();
+    pairs.extend(made.iter().map(|(g, p)| (g, &p[..])));
+    let model = Model::train(&pairs, &Options { detect: false, ..Options::of(Kind::Person) })?;
+    Ok(Taught { model })
+}
