@@ -38,7 +38,7 @@ pub struct Args {
     video_fps: Option<f64>,
     /// The frame of the video that is the neutral photo, counted from 0; the first where left out.
     #[arg(long, value_name = "N", requires = "video", conflicts_with = "neutral")]
-    neutral_frame: Option<usize>,
+    neutral_frame: Option<u32>,
     /// A photo of one of the person's other emotions: happy, anger, disgust, sadness, fear or surprised. Points that
     /// lie beside it in a .pts or .asf file of its name are taken along.
     #[arg(long = "shot", value_name = "EMOTION=PHOTO", value_parser = shot)]

@@ -83,7 +83,7 @@ pub(super) fn write_face(folder: &Path, created: &Created) -> Result<()> {
 }
 
 /// A frame of a video as the neutral photo.
-pub(super) fn frame_of(video: &Path, fps: f64, number: usize) -> Result<Brought> {
+pub(super) fn frame_of(video: &Path, fps: f64, number: u32) -> Result<Brought> {
     Brought::of(&Source::of(video, fps)?.frame(number)?)
 }
 

@@ -46,7 +46,7 @@ pub struct NewLesson {
     /// Frames a second of a video that is a folder of pictures.
     pub video_fps: Option<f64>,
     /// The number of the frame that is the neutral photo where none is given; the first where left out.
-    pub neutral_frame: Option<usize>,
+    pub neutral_frame: Option<u32>,
     /// The figure.
     pub figure: Option<String>,
 }

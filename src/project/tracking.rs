@@ -149,11 +149,10 @@ impl Clip {
     /// When the video cannot be read.
     pub fn frame_at(&self, time: f64) -> Result<Option<Photo>> {
         let Some(source) = self.source()? else { return Ok(None) };
-        let number = (time * source.fps() + 1e-6).max(0.0) as usize;
-        if source.count().is_some_and(|count| number >= count) {
+        if source.duration().is_some_and(|end| time >= end) {
             return Ok(None);
         }
-        source.frame(number).map(Some)
+        source.frame_at(time).map(Some)
     }
 
     /// Whether the face in its video is still to be followed.

@@ -117,6 +117,10 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
         let text = format!("{}{reading}   {:.3} to {:.3} s{mark}", syllable.text, interval.start, interval.end);
         lines.push((text, style));
     }
+    let lost = clip.lost().into_iter().find(|d| (d.start - 1e-9..d.end).contains(&editor.cursor));
+    if let Some(lost) = lost {
+        lines.push((format!("{}!", clip.told(&lost)), colours.warning()));
+    }
     let (_, shape) = editor.timeline.mouth(editor.cursor);
     let shape = shape.map_or("rest".into(), |s| s.to_string());
     let key = edits::key_line(editor, clip).map_or(String::new(), |k| format!("   {k}"));
