@@ -14,7 +14,7 @@ mod tracks;
 pub use binding::Binding;
 pub use calibration::{Calibration, Shape, Source};
 pub use decompose::{Choice, Decomposition, Reading};
-pub use lpr::{LprReader, LprWriter, Moment};
+pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};
 pub use record::{Record, Row};
 pub(crate) use table::decimal;
 pub use tracks::{MouthMoves, TrackRow, Tracks};
