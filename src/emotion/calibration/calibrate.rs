@@ -62,6 +62,19 @@ impl Ground {
         self.points.iter().zip(self.spread.over(moves)).map(|(p, by)| *p + by).collect()
     }
 
+    /// The ways in which the model's points move: columns of x and y in turns, each one standard deviation.
+    pub fn ways(&self) -> nalgebra::DMatrix<f64> {
+        let named = self.moves.ways();
+        let columns: Vec<Vec<Vec2>> = named
+            .column_iter()
+            .map(|c| self.spread.over(&c.as_slice().chunks_exact(2).map(|v| Vec2::new(v[0], v[1])).collect::<Vec<_>>()))
+            .collect();
+        nalgebra::DMatrix::from_fn(2 * self.points.len(), columns.len(), |r, c| {
+            let v = columns[c][r / 2];
+            if r % 2 == 0 { v.x } else { v.y }
+        })
+    }
+
     /// The same in pixels of the neutral shot.
     pub fn on_neutral(&self, moves: &[Vec2]) -> Vec<Point> {
         self.moved(moves).into_iter().map(|p| self.frame.apply(p)).collect()
@@ -72,6 +85,8 @@ impl Ground {
 #[derive(Debug, Clone)]
 pub(super) struct Known<'a> {
     pub grey: &'a Grey,
+    /// From the frame of the neutral pupils to its pixels.
+    pub place: Similarity,
     pub points: Vec<Point>,
     /// How far each point may be off, in pupil distances; 0 where a hand has set it.
     pub errors: Vec<f64>,
@@ -113,8 +128,11 @@ pub fn calibrate(inputs: &Inputs) -> Result<Calibrated> {
         let all_set = !shot.points.is_empty() && (i == 0 || shot.points.iter().all(|p| p.how == How::Hand));
         if all_set {
             let n = shot.points.len();
+            let pixels: Vec<Point> = shot.points.iter().map(|p| p.at).collect();
+            let Some(place) = Similarity::between(&ground.points, &pixels) else { continue };
             known[i] = Some(Known {
                 grey: shot.grey,
+                place,
                 points: shot.points.iter().map(|p| p.at).collect(),
                 errors: vec![0.0; n],
                 hands: vec![true; n],
@@ -163,7 +181,7 @@ fn placed<'a>(grey: &'a Grey, ground: &Ground, seen: &Seen, hands: &[(usize, Poi
     for (k, at) in hands {
         (points[*k], errors[*k], set[*k]) = (*at, 0.0, true);
     }
-    Known { grey, points, errors, hands: set, turned: seen.turned, look: 1.0 }
+    Known { grey, place: seen.place, points, errors, hands: set, turned: seen.turned, look: 1.0 }
 }
 
 fn finish(

@@ -1,9 +1,11 @@
 //! A calibration: the shapes of a person's seven emotions, by which ratios are told.
 
 mod calibrate;
+mod closer;
 mod finding;
 mod inputs;
 mod moves;
+mod patches;
 mod person;
 mod quality;
 mod spread;

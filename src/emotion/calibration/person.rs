@@ -1,6 +1,8 @@
 //! The person's own model: trained on the shots, and on what the rig makes of them where they are few.
 
 use super::calibrate::{Ground, Known};
+use super::closer::{Flesh, Laid};
+use super::patches::{Patches, View};
 use super::warped::bent;
 use crate::aam::{Fitter, Grey, Kind, Model, Options, Start};
 use crate::disk::Result;
@@ -39,16 +41,46 @@ pub(super) fn settle(ground: &Ground, known: &mut [Option<Known>; 7]) -> Result<
     if known.iter().flatten().all(|k| k.hands.iter().all(|h| *h)) {
         return Ok(());
     }
+    let var = |n: &str| std::env::var(n).unwrap_or_default();
+    if var("CLM") != "0" {
+        let flesh = Flesh::new(&ground.points, &ground.ways());
+        let view = View::of(neutral.grey, ground.frame.scale());
+        let looks = vec![Patches::of(&view, &ground.frame, &ground.points)];
+        for shot in known.iter_mut().flatten().filter(|k| k.hands.iter().any(|h| !*h)) {
+            let view = View::of(shot.grey, shot.place.scale());
+            let start = Laid { place: shot.place, points: shot.points.iter().map(|p| shot.place.undo(*p)).collect(), errors: shot.errors.clone(), like: 0.0 };
+            let fixed: Vec<(usize, Point)> = shot.points.iter().copied().enumerate().filter(|(i, _)| shot.hands[*i]).collect();
+            let laid = flesh.closer(&view, &looks, &start, &fixed, &[0.16, 0.12, 0.1, 0.08, 0.08, 0.06, 0.06]);
+            shot.place = laid.place;
+            for (i, p) in laid.points.iter().enumerate() {
+                if !shot.hands[i] {
+                    shot.points[i] = laid.place.apply(*p);
+                    shot.errors[i] = laid.errors[i];
+                }
+            }
+            shot.look = laid.like;
+        }
+    }
     let made = made(ground, &neutral);
     let mut pairs: Vec<(&Grey, &[Point])> = vec![(neutral.grey, &neutral.points)];
     pairs.extend(made.iter().map(|(g, p)| (g, &p[..])));
-    let options = Options { detect: false, ..Options::of(Kind::Person) };
+    let mut options = Options { detect: false, mirror: false, ..Options::of(if var("KIND") == "any" { Kind::Anyone } else { Kind::Person }) };
+    if let Ok(m) = var("MODES").parse() { options.modes[1] = m; }
+    if let Ok(m) = var("MODES0").parse() { options.modes[0] = m; }
+    if let Ok(m) = var("PX").parse() { options.pixels[1] = m; }
+    if let Ok(m) = var("SHARE").parse() { options.shape_share = m; }
+    if let Ok(m) = var("SMOOTH").parse() { options.smooth[1] = m; }
+    if let Ok(m) = var("TEX").parse() { options.texture_most = m; }
+    if var("EDGES") == "1" { options.edges = true; }
+    if var("SKIRT") == "1" { options.skirt = true; }
+    if var("SIM") == "1" { options.simultaneous = true; }
+    if var("SIM") == "0" { options.simultaneous = false; }
     let model = Model::train(&pairs, &options)?;
     let mut fitter = Fitter::new(&model);
     for shot in known.iter_mut().flatten().filter(|k| k.hands.iter().any(|h| !*h)) {
-        let fit = fitter.fit(shot.grey, Start::Near(&shot.points));
-        shot.look = fit.confidence;
-        if std::env::var("AAM").is_ok() {
+        let mut fit = if var("NEAR") == "1" { fitter.fit(shot.grey, Start::Near(&shot.points)) } else { fitter.fit(shot.grey, Start::Points(&shot.points)) };
+        if var("REFINE") == "1" { fit = fitter.refine(shot.grey, &fit); }
+        if !var("AAM").is_empty() {
             for ((p, to), hand) in shot.points.iter_mut().zip(&fit.points).zip(&shot.hands) {
                 if !hand {
                     *p = *to;
