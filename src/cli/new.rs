@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use super::frames_done::FramesDone;
 use super::output_fault;
 use crate::disk::Result;
 use crate::pose::Emotion;
@@ -75,7 +76,11 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         anchors: super::face::anchors(&args.at)?,
         figure: args.figure.clone(),
     };
-    let Made { lesson, warnings, notes } = create(&args.project, &new)?;
+    let made = {
+        let bar = FramesDone::new("the video");
+        create(&args.project, &new, &mut |done, of| bar.show(done, of))?
+    };
+    let Made { lesson, warnings, notes, calibration } = made;
     let root = args.project.display();
     let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
     match lesson.clips.first() {
@@ -115,6 +120,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     }
     for warning in &warnings {
         say(format!("note on the photo: {warning}"))?;
+    }
+    for note in calibration.iter().flat_map(|quality| &quality.notes) {
+        say(format!("note on the shots: {note}"))?;
     }
     let quoted = if args.project.to_string_lossy().contains(' ') { format!("'{root}'") } else { root.to_string() };
     if lesson.clips.is_empty() {

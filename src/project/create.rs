@@ -7,15 +7,16 @@ use super::clip::SOUNDS;
 use super::brought::{Brought, copy_video, frame_of, write_face};
 use super::video::FRAMES_FPS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
-use super::{AlignJob, Lesson};
+use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
-use crate::emotion::Record;
+use crate::emotion::{Quality, Record, calibrate_folder};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
 use crate::pose::Emotion;
 use crate::script::System;
 use crate::speech::Note;
 use crate::timing::{self, Format};
+use crate::track::Options;
 
 /// The largest recording that is copied: hours of sound.
 const MAX_SOUND_BYTES: u64 = 4 << 30;
@@ -58,15 +59,18 @@ pub struct Made {
     pub lesson: Lesson,
     /// What there is to say of its photo.
     pub warnings: Vec<Warning>,
-    /// What there is to say of its recording.
+    /// What there is to say of its recording and its video.
     pub notes: Vec<String>,
+    /// How good the calibration of its face is, where it was calibrated.
+    pub calibration: Option<Quality>,
 }
 
-/// Makes the lesson `root` and returns it, read back.
+/// Makes the lesson `root` and returns it, read back. Where it has a video, `go_on` is told how many of its frames were
+/// looked at, of how many, and stops that by `false`: the lesson is made without it then.
 ///
 /// # Errors
 /// When the folder is taken, or an input cannot be used; then nothing is left behind.
-pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
+pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Made> {
     let Some(name) = root.file_name().and_then(|n| n.to_str()).map(str::to_owned) else {
         return Err(Fault::new(format!("`{}` does not end in a name for the lesson", root.display()))
             .help("give the folder to make, such as lessons/nihao")
@@ -162,7 +166,9 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
             None => fault,
         });
     }
-    let notes = find_times(&mut lesson)?;
+    let mut notes = find_times(&mut lesson)?;
+    let calibration = calibrate_shots(&lesson, new)?;
+    notes.extend(follow_faces(&mut lesson, go_on)?);
     drop(lesson);
     if root.exists() {
         std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
@@ -174,7 +180,7 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     })?;
     open_to_others(root);
     let warnings = face.map_or_else(Vec::new, |(_, created)| created.warnings);
-    Ok(Made { lesson: Lesson::read(root)?, warnings, notes })
+    Ok(Made { lesson: Lesson::read(root)?, warnings, notes, calibration })
 }
 
 /// Finds the times of a new lesson in its sound, and says what there is to say of them. A recording that cannot be
@@ -193,6 +199,35 @@ fn find_times(lesson: &mut Lesson) -> Result<Vec<String>> {
                 lesson.clips[number].save()?;
             }
             Err(fault) => notes.push(format!("its times could not be found: {fault}")),
+        }
+    }
+    Ok(notes)
+}
+
+/// Calibrates a new lesson's face where there are shots of it or a video to follow it in.
+fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> {
+    let Some(face) = lesson.faces.first().filter(|_| !new.shots.is_empty() || new.video.is_some()) else {
+        return Ok(None);
+    };
+    let calibrated = calibrate_folder(&face.folder).map_err(|f| of_inputs(&f, new))?;
+    calibrated.write(&face.folder)?;
+    Ok(Some(calibrated.quality))
+}
+
+/// Follows the faces in a new lesson's videos. A video in which that fails is no reason not to make a lesson of it.
+fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
+    for number in (0..lesson.clips.len()).filter(|n| lesson.clips[*n].wants_tracking()).collect::<Vec<_>>() {
+        let job = TrackJob::of(lesson, number, Method::default(), Options::default())?;
+        match job.run(go_on) {
+            Ok(followed) => {
+                notes.extend(followed.notes);
+                notes.extend(followed.tracked.notes.iter().cloned());
+                lesson.take_tracked(number, followed.tracked, followed.checksum);
+                lesson.clips[number].footage_changed = true;
+                lesson.clips[number].save()?;
+            }
+            Err(fault) => notes.push(format!("the face in its video could not be followed: {fault}")),
         }
     }
     Ok(notes)
