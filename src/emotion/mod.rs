@@ -12,7 +12,10 @@ mod table;
 mod tracks;
 
 pub use binding::Binding;
-pub use calibration::{Calibrated, Calibration, Inputs, Quality, Shape, ShotInput, Source, calibrate};
+pub use calibration::{
+    Calibrated, Calibration, CalibrationFile, Inputs, Marks, Quality, Retake, Shape, ShotFiles, ShotInput, ShotQuality, Source,
+    calibrate,
+};
 pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment};
 pub use record::{Record, Row};
