@@ -37,7 +37,7 @@ const EMOTIONS: [Emotion; 6] =
     [Emotion::Happy, Emotion::Anger, Emotion::Disgust, Emotion::Sadness, Emotion::Fear, Emotion::Surprised];
 
 /// Found points against the truth, by part: our own points, and somebody's.
-fn measure(neutral: &(Grey, Vec<Point>), shots: &[(Grey, Vec<Point>)], own: &mut Errors, foreign: &mut Errors, base: &mut Errors) {
+fn measure(names: &[std::path::PathBuf], neutral: &(Grey, Vec<Point>), shots: &[(Grey, Vec<Point>)], own: &mut Errors, foreign: &mut Errors, base: &mut Errors) {
     let (grey, truth) = neutral;
     let Ok(found) = find(&grey.to_photo(), &[]) else { println!("no face in the neutral photo"); return };
     let named: Vec<(P, Point)> = Binding::own_points().map(|p| (p, found.points[p.index()].at)).collect();
@@ -68,6 +68,12 @@ fn measure(neutral: &(Grey, Vec<Point>), shots: &[(Grey, Vec<Point>)], own: &mut
                     let part = match p.part() { Part::Brows => "brow", Part::Eyes => "eye", Part::Nose => "nose", Part::Mouth => "mouth", _ => "face" };
                     let at = hang.at(truth, *p).unwrap();
                     let e = 100.0 * at.distance(points[*i].at) / pupils;
+                    if let Ok(path) = std::env::var("OVER") {
+                        use std::io::Write;
+                        let mut f = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
+                        let q = points[*i].at;
+                        writeln!(f, "{} {} {} {} {} {}", names[EMOTIONS.iter().position(|e| *e == emotion).unwrap()].display(), p, q.x, q.y, at.x, at.y).unwrap();
+                    }
                     own.entry(part).or_default().push(e);
                     own.entry("all").or_default().push(e);
                     base.entry(part).or_default().push(100.0 * at.distance(raw.points[p.index()].at) / pupils);
@@ -103,25 +109,28 @@ fn measured() {
     if which == "imm240" {
         let folder = test_data::find("faces/imm240").unwrap();
         let people: usize = std::env::var("N").map_or(10, |n| n.parse().unwrap());
-        for p in 1..=people {
+        for p in std::env::var("FROM").map_or(1, |n| n.parse().unwrap())..=people {
             let name = |k: usize| {
                 let of = |sex: &str| format!("{p:02}-{k}{sex}");
                 if folder.join(of("m") + ".jpg").exists() { of("m") } else { of("f") }
             };
             println!("person {p}");
             let shots: Vec<_> = [2, 6].iter().map(|k| load(&folder, &name(*k), "asf")).collect();
-            measure(&load(&folder, &name(1), "asf"), &shots, &mut own, &mut foreign, &mut base);
+            let names: Vec<_> = [2, 6].iter().map(|k| folder.join(name(*k) + ".jpg")).collect();
+            measure(&names, &load(&folder, &name(1), "asf"), &shots, &mut own, &mut foreign, &mut base);
         }
     } else if which == "franck" {
         let folder = test_data::find("faces/franck/calibration").unwrap();
         let shots: Vec<_> = ["0075", "0260", "1080", "1090", "1095", "1195"].iter().map(|n| load(&folder, n, "pts")).collect();
-        measure(&load(&folder, "0565", "pts"), &shots, &mut own, &mut foreign, &mut base);
+        let names: Vec<_> = ["0075", "0260", "1080", "1090", "1095", "1195"].iter().map(|n| folder.join(format!("{n}.jpg"))).collect();
+        measure(&names, &load(&folder, "0565", "pts"), &shots, &mut own, &mut foreign, &mut base);
     } else {
         let folder = test_data::find("faces/imm_frontal").unwrap();
         for p in ["01", "03", "05", "06", "09", "11"] {
             println!("person {p}");
             let shots: Vec<_> = [4, 6, 7, 8, 9, 10].iter().map(|k| load(&folder, &format!("{p}_{k:02}"), "asf")).collect();
-            measure(&load(&folder, &format!("{p}_01"), "asf"), &shots, &mut own, &mut foreign, &mut base);
+            let names: Vec<_> = [4, 6, 7, 8, 9, 10].iter().map(|k| folder.join(format!("{p}_{k:02}.jpg"))).collect();
+            measure(&names, &load(&folder, &format!("{p}_01"), "asf"), &shots, &mut own, &mut foreign, &mut base);
         }
     }
     print("finder alone", &base);

@@ -14,8 +14,11 @@ mod table;
 mod tracks;
 
 pub use binding::Binding;
-pub use calibration::{Calibrated, Calibration, Inputs, Quality, Shape, ShotInput, Source, calibrate};
 pub use bridge::{bridge_record, bridge_tracks};
+pub use calibration::{
+    Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles, ShotInput,
+    ShotQuality, Source, calibrate,
+};
 pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};
 pub use record::{Record, Row};

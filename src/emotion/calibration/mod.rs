@@ -2,8 +2,13 @@
 
 mod calibrate;
 mod closer;
+mod expressions;
+mod file;
+mod files;
 mod finding;
 mod inputs;
+mod kept;
+mod marks;
 mod moves;
 mod patches;
 mod person;
@@ -13,7 +18,11 @@ mod warped;
 
 pub use calibrate::{Calibrated, calibrate};
 pub use inputs::{Inputs, ShotInput};
-pub use quality::Quality;
+pub use kept::Kept;
+pub use file::CalibrationFile;
+pub use files::ShotFiles;
+pub use marks::Marks;
+pub use quality::{Quality, Retake, ShotQuality};
 
 use super::{Binding, Choice, Decomposition, Reading};
 use crate::aam::Similarity;

@@ -74,6 +74,18 @@ impl Patches {
     }
 }
 
+impl Patches {
+    /// Those of some points alone; the others are not looked for with them.
+    pub fn only(mut self, which: &[bool]) -> Self {
+        for (patch, keep) in self.0.iter_mut().zip(which) {
+            if !keep {
+                patch.clear();
+            }
+        }
+        self
+    }
+}
+
 fn normal(mut patch: Vec<f32>) -> Vec<f32> {
     let mean = patch.iter().sum::<f32>() / patch.len() as f32;
     patch.iter_mut().for_each(|v| *v -= mean);
@@ -113,7 +125,7 @@ pub(super) fn sights(view: &View, place: &Similarity, points: &[Point], looks: &
                     }
                     let window = normal(window);
                     let like = |p: &Patches| p.0[i].iter().zip(&window).map(|(a, b)| a * b).sum::<f32>();
-                    likes.push(f64::from(looks.iter().map(like).fold(-1.0, f32::max)));
+                    likes.push(f64::from(looks.iter().filter(|p| !p.0[i].is_empty()).map(like).fold(-1.0, f32::max)));
                 }
             }
             sight(&likes, far)

@@ -45,12 +45,43 @@ pub(super) fn settle(ground: &Ground, known: &mut [Option<Known>; 7]) -> Result<
     if var("CLM") != "0" {
         let flesh = Flesh::new(&ground.points, &ground.ways());
         let view = View::of(neutral.grey, ground.frame.scale());
-        let looks = vec![Patches::of(&view, &ground.frame, &ground.points)];
+        let mut looks = vec![Patches::of(&view, &ground.frame, &ground.points)];
+        if var("BENT") == "1" {
+            let m = &ground.moves;
+            let scale = (56.0 / ground.frame.scale()).min(1.0);
+            let list: Vec<Vec<Vec2>> = vec![m.emotion(Emotion::Happy), m.emotion(Emotion::Surprised), m.mouth(MouthShape::E, 0.8)];
+            let of_mouth: Vec<bool> = ground.points.iter().map(|p| {
+                let near = ground.named.iter().min_by(|a, b| a.1.distance(*p).total_cmp(&b.1.distance(*p)));
+                near.is_some_and(|n| n.0.part() == crate::face::Part::Mouth)
+            }).collect();
+            for by in list {
+                let (grey, points) = bent(neutral.grey, &neutral.points, &ground.on_neutral(&by), scale);
+                let to = ground.moved(&by);
+                if let Some(place) = crate::aam::Similarity::between(&to, &points) {
+                    looks.push(Patches::of(&View::of(&grey, place.scale()), &place, &to).only(&of_mouth));
+                }
+            }
+        }
         for shot in known.iter_mut().flatten().filter(|k| k.hands.iter().any(|h| !*h)) {
             let view = View::of(shot.grey, shot.place.scale());
             let start = Laid { place: shot.place, points: shot.points.iter().map(|p| shot.place.undo(*p)).collect(), errors: shot.errors.clone(), like: 0.0 };
             let fixed: Vec<(usize, Point)> = shot.points.iter().copied().enumerate().filter(|(i, _)| shot.hands[*i]).collect();
-            let laid = flesh.closer(&view, &looks, &start, &fixed, &[0.16, 0.12, 0.1, 0.08, 0.08, 0.06, 0.06]);
+            let m = &ground.moves;
+            let mut starts = vec![start.clone()];
+            if var("MULTI") != "0" {
+                for by in [m.lids(1.0, 1.0), m.emotion(Emotion::Happy), m.emotion(Emotion::Surprised)] {
+                    starts.push(Laid { points: ground.moved(&by), ..start.clone() });
+                }
+            }
+            let mut best: Option<Laid> = None;
+            for start in &starts {
+                let laid = flesh.closer(&view, &looks, start, &fixed, &[0.16, 0.12, 0.1, 0.08]);
+                if best.as_ref().is_none_or(|b| laid.like > b.like) {
+                    best = Some(laid);
+                }
+            }
+            let laid = best.unwrap_or(start);
+            let laid = flesh.closer(&view, &looks, &laid, &fixed, &[0.08, 0.06, 0.06]);
             shot.place = laid.place;
             for (i, p) in laid.points.iter().enumerate() {
                 if !shot.hands[i] {
