@@ -4,7 +4,9 @@
 use super::Tracked;
 use super::measure::Measures;
 use super::said::ranges;
-use crate::emotion::{MouthMoves, Row, TrackRow, Tracks};
+use crate::emotion::{
+    MouthMoves, Row, SMOOTH_WIDTH, TrackRow, Tracks, bridge_record, bridge_tracks, smooth_record, smooth_tracks,
+};
 use crate::face::rig::Expression;
 use crate::geometry::{Point, Vec2};
 use crate::pose::{Gaze, Head, Lids, Ratios};
@@ -36,6 +38,8 @@ pub(super) struct Rest {
     pub iris: Vec2,
 }
 
+/// The edges of closed lids are marked this far apart, in openings of the neutral eye.
+const CLOSED: f64 = 0.1;
 /// How wide lids are drawn at most.
 const WIDEST: f64 = 1.2;
 /// Of an open eye's height, how much lies above the middle of the eyeball.
@@ -67,7 +71,7 @@ impl Rest {
         let off = (m.place - self.place) / self.pupils.max(1.0);
         let look = seen.iris.map_or(Vec2::ZERO, |at| at - self.iris);
         let drawn = drawn_opening(&seen.ratios);
-        let lid = |open: f64| (open / drawn).clamp(0.0, WIDEST);
+        let lid = |open: f64| ((open - CLOSED) / (1.0 - CLOSED) / drawn).clamp(0.0, WIDEST);
         TrackRow {
             frame,
             time,
@@ -90,20 +94,18 @@ fn drawn_opening(ratios: &Ratios) -> f64 {
 /// The record and the tracks of a video in which a face was seen at least once.
 pub(super) fn gathered(instants: &[Instant], rest: &Rest) -> Tracked {
     let mut tracked = Tracked::default();
-    let mut after = seen_after(instants).into_iter();
-    let mut before = None;
-    for instant in instants {
-        let Instant { frame, time, seen } = *instant;
-        before = seen.map(|s| (time, s)).or(before);
-        let after = after.next().flatten();
-        let Some(seen) = seen.or_else(|| bridged(time, before, after)) else { continue };
-        let confidence = instant.seen.map_or(0.0, |s| s.confidence);
-        tracked.record.rows.push(Row { frame, time, ratios: seen.ratios, confidence });
-        let mut row = rest.track(frame, time, &seen);
-        row.confidence = confidence;
-        tracked.tracks.rows.push(row);
+    for Instant { frame, time, seen } in instants.iter().copied() {
+        let confidence = seen.map_or(0.0, |s| s.confidence);
+        let ratios = seen.map_or(Ratios::NEUTRAL, |s| s.ratios);
+        tracked.record.rows.push(Row { frame, time, ratios, confidence });
+        tracked.tracks.rows.push(seen.map_or_else(|| at_rest(frame, time), |s| rest.track(frame, time, &s)));
     }
     look_over_blinks(instants, &mut tracked.tracks);
+    // Lost rows stay out of the smoothing, and are bridged between what comes out of it.
+    smooth_record(&mut tracked.record, SMOOTH_WIDTH);
+    smooth_tracks(&mut tracked.tracks, SMOOTH_WIDTH);
+    bridge_record(&mut tracked.record);
+    bridge_tracks(&mut tracked.tracks);
     let lost: Vec<f64> = instants.iter().filter(|i| i.seen.is_none()).map(|i| i.time).collect();
     if !lost.is_empty() {
         let step = step(instants);
@@ -122,51 +124,10 @@ pub(super) fn step(instants: &[Instant]) -> f64 {
     instants.windows(2).map(|w| w[1].time - w[0].time).fold(f64::INFINITY, f64::min).min(1.0)
 }
 
-/// Of each frame the next one in which the face is seen: when, and what.
-fn seen_after(instants: &[Instant]) -> Vec<Option<(f64, Seen)>> {
-    let mut next = None;
-    let mut all: Vec<_> = instants
-        .iter()
-        .rev()
-        .map(|i| {
-            next = i.seen.map(|s| (i.time, s)).or(next);
-            next
-        })
-        .collect();
-    all.reverse();
-    all
-}
-
-/// Between the nearest frames in which the face was seen; at the ends as in the nearest.
-fn bridged(time: f64, before: Option<(f64, Seen)>, after: Option<(f64, Seen)>) -> Option<Seen> {
-    match (before, after) {
-        (Some((t0, a)), Some((t1, b))) => Some(between(&a, &b, (time - t0) / (t1 - t0))),
-        (one, other) => one.or(other).map(|(_, seen)| seen),
-    }
-}
-
-fn between(a: &Seen, b: &Seen, t: f64) -> Seen {
-    let lerp = |x: f64, y: f64| x + (y - x) * t;
-    let (m, n) = (&a.measures, &b.measures);
-    Seen {
-        ratios: a.ratios.lerp(b.ratios, t).closed(),
-        confidence: 0.0,
-        measures: Measures {
-            place: m.place.lerp(n.place, t),
-            pupils: lerp(m.pupils, n.pupils),
-            roll: lerp(m.roll, n.roll),
-            yaw: lerp(m.yaw, n.yaw),
-            open: [lerp(m.open[0], n.open[0]), lerp(m.open[1], n.open[1])],
-            mouth: MouthMoves {
-                up: lerp(m.mouth.up, n.mouth.up),
-                down: lerp(m.mouth.down, n.mouth.down),
-                left: lerp(m.mouth.left, n.mouth.left),
-                right: lerp(m.mouth.right, n.mouth.right),
-            },
-            eyes: m.eyes,
-        },
-        iris: a.iris.zip(b.iris).map(|(p, q)| p.lerp(q, t)).or(a.iris).or(b.iris),
-    }
+/// The tracks of a face that nothing is known of.
+pub(super) fn at_rest(frame: u32, time: f64) -> TrackRow {
+    let (gaze, lids) = (Gaze::default(), Lids::default());
+    TrackRow { frame, time, gaze, lids, mouth: MouthMoves::default(), head: Head::default(), confidence: 0.0 }
 }
 
 /// While eyes are closed they look from where they looked before to where they look after.

@@ -2,23 +2,24 @@
 
 use super::Options;
 use super::by_aam::Watcher;
-use super::gather::{Instant, Rest, Seen};
+use super::gather::{Instant, Rest, Seen, at_rest};
 use crate::aam::{Grey, Model};
 use crate::disk::Result;
-use crate::emotion::{Calibration, Moment, MouthMoves, Row, TrackRow};
-use crate::pose::{Gaze, Head, Lids, Ratios};
+use crate::emotion::{Calibration, Moment, Row, SMOOTH_WIDTH, Steady};
+use crate::pose::Ratios;
 
 /// Follows a face in frames that come one after the other, and looks at none ahead.
 ///
 /// The face rests where it was first seen; its gaze is counted from the mean of what was seen so far. A frame in which the
 /// face is lost says what the last one said, with confidence 0; before it is first seen, that is a neutral face at rest.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Live<'m> {
     watcher: Watcher<'m>,
     rest: Option<Rest>,
     /// Frames in which the irises were seen.
     looked: f64,
     last: Option<Seen>,
+    steady: Steady,
 }
 
 /// Frames over which the mean of the gaze is taken: one that looks aside for longer is taken to look ahead.
@@ -30,7 +31,7 @@ impl<'m> Live<'m> {
     /// # Errors
     /// When model and calibration do not belong together.
     pub fn new(model: &'m Model, calibration: &'m Calibration, options: &Options) -> Result<Self> {
-        Ok(Self { watcher: Watcher::new(model, calibration, options)?, rest: None, looked: 0.0, last: None })
+        Ok(Self { watcher: Watcher::new(model, calibration, options)?, rest: None, looked: 0.0, last: None, steady: Steady::new(SMOOTH_WIDTH) })
     }
 
     /// What the next frame shows.
@@ -54,11 +55,6 @@ impl<'m> Live<'m> {
         let row = Row { frame, time, ratios: shown.ratios, confidence };
         let mut track = rest.track(frame, time, &shown);
         track.confidence = confidence;
-        Moment { row, track: Some(track) }
+        self.steady.push(&Moment { row, track: Some(track) })
     }
-}
-
-fn at_rest(frame: u32, time: f64) -> TrackRow {
-    let (gaze, lids) = (Gaze::default(), Lids::default());
-    TrackRow { frame, time, gaze, lids, mouth: MouthMoves::default(), head: Head::default(), confidence: 0.0 }
 }

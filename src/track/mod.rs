@@ -11,11 +11,14 @@ mod gather;
 mod gaze;
 mod live;
 mod measure;
+mod regions;
 mod said;
 
 pub use by_aam::by_aam;
+pub use follow::Follower;
 pub use frames::{Ffmpeg, Frame, Frames, Scan, Source, Y4m, sound_of};
 pub use live::Live;
+pub use regions::by_regions;
 
 use crate::disk::Fault;
 use crate::emotion::{Choice, Record, Tracks};
