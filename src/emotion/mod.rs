@@ -7,6 +7,8 @@ mod binding;
 mod bridge;
 mod calibration;
 mod decompose;
+mod foreign;
+pub mod import;
 mod lpr;
 mod record;
 mod smooth;
