@@ -70,7 +70,7 @@ const FRAME: usize = 288;
 const SHOT: usize = 480;
 
 /// Quality of JPEG: of the frames and of the shots.
-const FRAMES_QUALITY: u8 = 72;
+const FRAMES_QUALITY: u8 = 60;
 const SHOTS_QUALITY: u8 = 85;
 
 fn main() -> Result<(), Box<dyn Error>> {

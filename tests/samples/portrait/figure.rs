@@ -329,7 +329,8 @@ impl<'a> Figure<'a> {
                     continue;
                 }
                 // Down to the chin nothing comes nearer by more than folds and lips that are pushed out.
-                let near = at.1 < 150.0 && was.stuff != Stuff::Nothing;
+                let deep = at.1 < 105.0 || at.1 < 150.0 && was.place.2 > 80.0;
+                let near = deep && was.stuff != Stuff::Nothing;
                 let start = if near { (was.place - from).len() - if at.1 < 60.0 { 5.0 } else { 12.0 } } else { 0.0 };
                 *met = self.march_from(from, to, start).map(|(p, stuff)| (p, stuff, self.facing(p, stuff)));
             }
