@@ -4,17 +4,21 @@
 //! It does not find shapes in videos, which is the room `track`'s, and an author's changes are the `timeline`'s.
 
 mod binding;
+mod bridge;
 mod calibration;
 mod decompose;
 mod lpr;
 mod record;
+mod smooth;
 mod table;
 mod tracks;
 
 pub use binding::Binding;
+pub use bridge::{bridge_record, bridge_tracks};
 pub use calibration::{Calibration, Shape, Source};
 pub use decompose::{Choice, Decomposition, Reading};
-pub use lpr::{LprReader, LprWriter, Moment};
+pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};
 pub use record::{Record, Row};
+pub use smooth::{SMOOTH_WIDTH, Steady, smooth_keeping_peaks, smooth_record, smooth_tracks};
 pub(crate) use table::decimal;
 pub use tracks::{MouthMoves, TrackRow, Tracks};
