@@ -12,6 +12,7 @@ mod gaze;
 mod live;
 mod measure;
 mod regions;
+mod relay;
 mod said;
 
 pub use by_aam::by_aam;
@@ -19,6 +20,7 @@ pub use follow::Follower;
 pub use frames::{Ffmpeg, Frame, Frames, Scan, Source, Y4m, sound_of};
 pub use live::Live;
 pub use regions::by_regions;
+pub use relay::relay;
 
 use crate::disk::Fault;
 use crate::emotion::{Choice, Record, Tracks};

@@ -20,6 +20,8 @@ pub struct Ffmpeg {
 
 /// Of what it says so much is kept: the first and the last.
 const KEPT: usize = 16 << 10;
+/// Seconds: longer than pictures that stand by themselves are apart in most videos.
+const BEFORE: f64 = 10.0;
 
 impl Ffmpeg {
     /// Looks for it on the PATH.
@@ -46,7 +48,13 @@ impl Ffmpeg {
 
     /// The frames of a video from a time in seconds on, at most so many; upright, with square pixels, at a steady rate.
     pub(super) fn video(&self, video: &Path, from: f64, most: Option<u32>, loud: bool) -> Result<Running> {
-        let mut words: Vec<OsString> = self.opening(video, from, loud);
+        // A jump lands on any picture near, in old kinds of files behind the one that is wanted: it goes to some time before,
+        // and from there every picture is decoded.
+        let jump = (from - BEFORE).max(0.0);
+        let mut words: Vec<OsString> = self.opening(video, jump, loud);
+        if from > jump {
+            words.extend(["-ss".into(), OsString::from(format!("{:.6}", from - jump))]);
+        }
         let plain = ["-map", "0:v:0", "-an", "-sn", "-dn", "-vf", "scale=trunc(iw*sar/2+0.5)*2:ih,setsar=1"];
         words.extend(plain.map(OsString::from));
         if let Some(most) = most {
