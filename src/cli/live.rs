@@ -4,7 +4,7 @@ use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use crate::disk::{Fault, Result};
-use crate::emotion::{Calibrated, calibrate_folder};
+use crate::emotion::Kept;
 use crate::project::Lesson;
 use crate::track::{Options, relay};
 
@@ -12,14 +12,14 @@ use crate::track::{Options, relay};
 ///
 /// # Errors
 /// When there is no face to follow, the stream is none or damaged, or the record cannot be written.
-pub(super) fn run(model: &Path, out: &mut dyn Write) -> Result<()> {
+pub(super) fn run(model: &Path, options: &Options, out: &mut dyn Write) -> Result<()> {
     let folder = face_folder(model)?;
-    let calibrated = match Calibrated::read(&folder)? {
-        Some(calibrated) => calibrated,
-        None => calibrate_folder(&folder)?,
+    let kept = match Kept::read(&folder)? {
+        Some(kept) => kept,
+        None => Kept::make(&folder)?,
     };
     let input = BufReader::with_capacity(1 << 20, std::io::stdin().lock());
-    let (count, lost) = relay(input, out, &calibrated.model, &calibrated.calibration, &Options::default())?;
+    let (count, lost) = relay(input, out, &kept.made.model, &kept.made.calibration, options)?;
     if lost > 0 {
         eprintln!("note: the face was lost in {lost} of {count} frames");
     }
@@ -31,7 +31,7 @@ fn face_folder(model: &Path) -> Result<PathBuf> {
     if !model.join("lianpu.toml").is_file() {
         return Ok(model.to_owned());
     }
-    let lesson = Lesson::open(model)?;
+    let lesson = Lesson::read(model)?;
     let face = lesson.faces.first().ok_or_else(|| {
         Fault::new("the lesson has no face to follow")
             .at(model)

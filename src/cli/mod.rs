@@ -10,6 +10,7 @@ mod convert;
 mod export;
 mod face;
 mod frames_done;
+mod live;
 mod new;
 mod play;
 mod plot;
@@ -97,8 +98,8 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 
 /// The calibration of a face's folder.
 pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
-    match crate::emotion::Calibrated::read(folder)? {
-        Some(calibrated) => Ok(calibrated.calibration),
+    match crate::emotion::Kept::read(folder)? {
+        Some(kept) => Ok(kept.made.calibration),
         None => Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that")),
     }
 }

@@ -46,7 +46,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         ..Options::default()
     };
     match (&args.live, &args.model, &args.project) {
-        (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options),
+        (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options, out),
         (Some(input), ..) => Err(Fault::new(format!("`--live {}` is none", input.display()))
             .help("frames come on standard input: `ffmpeg -i VIDEO -f yuv4mpegpipe - | lianpu track --live - --model PROJECT`")
             .of_the_call()),

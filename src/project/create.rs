@@ -9,7 +9,7 @@ use super::video::FRAMES_FPS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
-use crate::emotion::{Quality, Record, calibrate_folder};
+use crate::emotion::{Kept, Quality, Record};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
 use crate::pose::Emotion;
@@ -209,9 +209,9 @@ fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> 
     let Some(face) = lesson.faces.first().filter(|_| !new.shots.is_empty() || new.video.is_some()) else {
         return Ok(None);
     };
-    let calibrated = calibrate_folder(&face.folder).map_err(|f| of_inputs(&f, new))?;
-    calibrated.write(&face.folder)?;
-    Ok(Some(calibrated.quality))
+    let kept = Kept::make(&face.folder).map_err(|f| of_inputs(&f, new))?;
+    kept.write(&face.folder)?;
+    Ok(Some(kept.made.quality))
 }
 
 /// Follows the faces in a new lesson's videos. A video in which that fails is no reason not to make a lesson of it.

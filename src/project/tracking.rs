@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use super::video::FRAMES_FPS;
 use super::{Clip, Lesson, LessonFace};
 use crate::disk::{Fault, Result};
-use crate::emotion::{Calibrated, calibrate_folder};
+use crate::emotion::Kept;
 use crate::face::Face;
 use crate::photo::Photo;
 use crate::track::{self, Options, Source, Tracked};
@@ -86,41 +86,40 @@ impl TrackJob {
     /// # Errors
     /// When the calibration or a frame cannot be read, or it was stopped.
     pub fn run(&self, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Followed> {
-        let (calibrated, mut notes) = calibration(&self.face_folder)?;
-        let checksum = checksum(&self.source, &calibrated, self.method, &self.options)?;
+        let (kept, mut notes) = calibration(&self.face_folder)?;
+        let checksum = checksum(&self.source, &kept, self.method, &self.options)?;
+        let made = &kept.made;
         let tracked = match self.method {
-            Method::Aam => {
-                track::by_aam(&self.source, &calibrated.model, &calibrated.calibration, &self.options, go_on)?
-            }
+            Method::Aam => track::by_aam(&self.source, &made.model, &made.calibration, &self.options, go_on)?,
             Method::Regions => {
                 let face = self.face.as_ref().ok_or_else(|| {
                     Fault::new("the face has no points to find its regions by")
                         .at(&self.face_folder)
                         .help("`lianpu face` finds them")
                 })?;
-                return Err(Fault::new("WAITS FOR C").at(face.photo.sha256.as_str()));
+                track::by_regions(&self.source, face, Some(&made.calibration), &self.options, go_on)?
             }
         };
-        notes.extend(calibrated.quality.notes);
+        notes.extend(kept.made.quality.notes);
         Ok(Followed { tracked, checksum, notes })
     }
 }
 
-/// The calibration of a face's folder: that of its files, or one made now, with a note that says so.
-fn calibration(folder: &std::path::Path) -> Result<(Calibrated, Vec<String>)> {
-    match Calibrated::read(folder)? {
-        Some(calibrated) if calibrated.is_of(folder) => Ok((calibrated, Vec::new())),
+/// The calibration of a face's folder: that of its files, or one made now, with a note where that differs.
+fn calibration(folder: &std::path::Path) -> Result<(Kept, Vec<String>)> {
+    match Kept::read(folder)? {
+        Some(kept) if kept.is_of(folder) => Ok((kept, Vec::new())),
         Some(_) => {
             let note = "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
-            Ok((calibrate_folder(folder)?, vec![note.into()]))
+            Ok((Kept::make(folder)?, vec![note.into()]))
         }
-        None => Ok((calibrate_folder(folder)?, Vec::new())),
+        None => Ok((Kept::make(folder)?, Vec::new())),
     }
 }
 
 /// What is found in a video hangs on this.
-fn checksum(source: &Source, calibrated: &Calibrated, method: Method, options: &Options) -> Result<String> {
-    let text = format!("{} {} {method:?} {options:?}", source.fingerprint()?, calibrated.fingerprint());
+fn checksum(source: &Source, kept: &Kept, method: Method, options: &Options) -> Result<String> {
+    let text = format!("{} {} {method:?} {options:?}", source.fingerprint()?, kept.fingerprint());
     Ok(format!("{:08x}", crc32fast::hash(text.as_bytes())))
 }
 
@@ -129,8 +128,8 @@ impl LessonFace {
     ///
     /// # Errors
     /// When its files are damaged.
-    pub fn calibrated(&self) -> Result<Option<Calibrated>> {
-        Calibrated::read(&self.folder)
+    pub fn calibration(&self) -> Result<Option<Kept>> {
+        Kept::read(&self.folder)
     }
 }
 
@@ -174,7 +173,7 @@ impl Lesson {
             return Ok(clip.wants_tracking());
         };
         let folder = self.manifest.face_of(&clip.entry).map(|f| self.root.join("faces").join(&f.name));
-        let Some(calibrated) = folder.map(|f| Calibrated::read(&f)).transpose()?.flatten() else { return Ok(false) };
-        Ok(checksum(&source, &calibrated, method, options)? != *before)
+        let Some(kept) = folder.map(|f| Kept::read(&f)).transpose()?.flatten() else { return Ok(false) };
+        Ok(checksum(&source, &kept, method, options)? != *before)
     }
 }
