@@ -56,6 +56,8 @@ pub struct Clip {
     pub(super) footage_changed: bool,
     /// Length of the sound in seconds, 0 without one.
     sound_seconds: f64,
+    /// Length of the video in seconds, 0 without one, and where a sound or a record says it.
+    video_seconds: f64,
 }
 
 /// What the files that saving writes looked like when they were last read or written; none where there was none.
@@ -105,6 +107,7 @@ impl Clip {
             kept_script: String::new(),
             footage_changed: false,
             sound_seconds: 0.0,
+            video_seconds: 0.0,
         };
         if let Some((path, script)) = text("script.txt")? {
             let system = entry.script_system.unwrap_or(System::Auto);
@@ -130,6 +133,13 @@ impl Clip {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
             clip.seen.score = super::save::checksum(&path);
         }
+        if clip.sound.is_none() && clip.record.is_none() {
+            // A video that cannot be opened here, for want of ffmpeg, is no reason not to show the rest.
+            match clip.source() {
+                Ok(source) => clip.video_seconds = source.and_then(|s| s.duration()).unwrap_or(0.0),
+                Err(fault) => clip.warnings.push(fault.to_string()),
+            }
+        }
         match file("timing.TextGrid")? {
             Some(path) => {
                 clip.seen.timing = super::save::checksum(&path);
@@ -151,7 +161,7 @@ impl Clip {
         if clip.duration() <= 0.0 {
             return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
                 .at(&folder)
-                .help("put a speech.wav with its script.txt there, a timing.TextGrid, or a ratios.csv"));
+                .help("put a speech.wav with its script.txt there, a timing.TextGrid, a ratios.csv, or a video"));
         }
         Ok(clip)
     }
@@ -211,7 +221,7 @@ impl Clip {
         }
         let last_key = self.score.keys.iter().map(|k| k.time).fold(0.0, f64::max);
         let record = self.record.as_ref().map_or(0.0, Record::duration);
-        self.timing.duration.max(record).max(last_key)
+        self.timing.duration.max(record).max(last_key).max(self.video_seconds)
     }
 
     /// What is said as the timeline takes it: from the tier `shapes` where there is one, else from the syllables.
