@@ -13,8 +13,8 @@ mod tracks;
 
 pub use binding::Binding;
 pub use calibration::{
-    Calibrated, Calibration, CalibrationFile, Inputs, Marks, Quality, Retake, Shape, ShotFiles, ShotInput, ShotQuality, Source,
-    calibrate,
+    Calibrated, Calibration, CalibrationFile, Inputs, Marks, Quality, Retake, Shape, ShotFiles, ShotInput, ShotQuality,
+    Source, calibrate,
 };
 pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment};
