@@ -3,14 +3,15 @@
 use super::finding::{Seeing, Seen};
 use super::inputs::Inputs;
 use super::moves::Moves;
-use super::person::{self, Taught};
+use super::person;
 use super::quality::Quality;
+use super::settle::Settling;
 use super::spread::Spread;
 use super::{Calibration, Shape, Source};
 use crate::aam::{Grey, Model, Similarity};
 use crate::disk::{Fault, Result};
-use crate::face::find::{Found, find};
-use crate::face::{FeaturePoint as P, How, Placed};
+use crate::face::find::find;
+use crate::face::{FeaturePoint as P, How, Part, Placed};
 use crate::geometry::{Point, Vec2};
 use crate::pose::Emotion;
 
@@ -60,6 +61,12 @@ impl Ground {
     /// The model's points when the named ones have moved so, in the frame of the neutral pupils.
     pub fn moved(&self, moves: &[Vec2]) -> Vec<Point> {
         self.points.iter().zip(self.spread.over(moves)).map(|(p, by)| *p + by).collect()
+    }
+
+    /// The part of the face whose named point is nearest to a place.
+    pub fn part_near(&self, at: Point) -> Option<Part> {
+        let far = |n: &&(P, Point)| n.1.distance_squared(at);
+        self.named.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map(|n| n.0.part())
     }
 
     /// The ways in which the model's points move: columns of x and y in turns, each one standard deviation.
@@ -122,47 +129,83 @@ pub fn calibrate(inputs: &Inputs) -> Result<Calibrated> {
     let ground = Ground::of(inputs)?;
     let mut known: [Option<Known>; 7] = Default::default();
     let mut refused: [Option<String>; 7] = Default::default();
-    let mut seeing: Option<Option<Seeing>> = None;
     for (i, shot) in inputs.shots.iter().enumerate() {
         let Some(shot) = shot else { continue };
-        let all_set = !shot.points.is_empty() && (i == 0 || shot.points.iter().all(|p| p.how == How::Hand));
-        if all_set {
-            let n = shot.points.len();
-            let pixels: Vec<Point> = shot.points.iter().map(|p| p.at).collect();
-            let Some(place) = Similarity::between(&ground.points, &pixels) else { continue };
-            known[i] = Some(Known {
-                grey: shot.grey,
-                place,
-                points: shot.points.iter().map(|p| p.at).collect(),
-                errors: vec![0.0; n],
-                hands: vec![true; n],
-                turned: 0.0,
-                look: 1.0,
-            });
+        if i > 0 && (shot.points.is_empty() || shot.points.iter().any(|p| p.how != How::Hand)) {
             continue;
         }
-        let seeing = seeing.get_or_insert_with(|| {
-            let neutral = inputs.shots[0].as_ref()?;
-            Seeing::new(neutral.grey, &ground.frame, &ground.named, &ground.moves)
+        let pixels: Vec<Point> = shot.points.iter().map(|p| p.at).collect();
+        let no_extent = || Fault::new(format!("the points of {} lie all in one place", Emotion::ALL[i]));
+        known[i] = Some(Known {
+            grey: shot.grey,
+            place: Similarity::between(&ground.points, &pixels).ok_or_else(no_extent)?,
+            errors: vec![0.0; pixels.len()],
+            hands: vec![true; pixels.len()],
+            points: pixels,
+            turned: 0.0,
+            look: 1.0,
         });
-        let hands = hands_of(inputs, i);
-        let named_hands: Vec<(P, Point)> = if inputs.own {
-            hands.iter().filter_map(|(k, at)| Some((ground.named.get(*k)?.0, *at))).collect()
-        } else {
-            Vec::new()
-        };
-        let found = find(&shot.grey.to_photo(), &named_hands);
-        match (seeing, found) {
-            (Some(seeing), Ok(found)) => {
-                let Some(seen) = seeing.look(&found, &named_hands) else { continue };
-                known[i] = Some(placed(shot.grey, &ground, &seen, &hands));
+    }
+    if let Some(neutral) = known[0].clone() {
+        let left: Vec<usize> = (1..7).filter(|i| inputs.shots[*i].is_some() && known[*i].is_none()).collect();
+        if !left.is_empty() {
+            let seeing = Seeing::new(neutral.grey, &ground.frame, &ground.named, &ground.moves);
+            let settling = Settling::new(&ground, &neutral);
+            for i in left {
+                match found(inputs, i, &ground, seeing.as_ref(), &settling, &neutral) {
+                    Some(Ok(shot)) => known[i] = Some(shot),
+                    Some(Err(why)) => refused[i] = Some(why),
+                    None => {}
+                }
             }
-            (_, Err(refusal)) => refused[i] = Some(refusal.to_string()),
-            (None, Ok(_)) => refused[i] = Some("no face is found in the neutral photo".into()),
         }
     }
-    person::settle(&ground, &mut known)?;
     finish(inputs, &ground, known, refused)
+}
+
+/// A shot whose points are found; why not, where there is no face to be seen. None where there is no shot.
+fn found<'a>(
+    inputs: &Inputs<'a>,
+    i: usize,
+    ground: &Ground,
+    seeing: Option<&Seeing>,
+    settling: &Settling,
+    neutral: &Known,
+) -> Option<Result<Known<'a>, String>> {
+    let shot = inputs.shots[i].as_ref()?;
+    let hands = hands_of(inputs, i);
+    let named: Vec<(P, Point)> = if inputs.own {
+        hands.iter().filter_map(|(k, at)| Some((ground.named.get(*k)?.0, *at))).collect()
+    } else {
+        Vec::new()
+    };
+    let first = match (find(&shot.grey.to_photo(), &named), seeing) {
+        (Ok(found), Some(seeing)) => seeing.look(&found, &named).ok_or_else(|| "its eyes coincide".to_owned()),
+        (Ok(_), None) => Err("no face is found in the neutral photo".to_owned()),
+        (Err(refusal), _) => Err(refusal.to_string()),
+    };
+    match first {
+        Ok(seen) => {
+            let mut known = placed(shot.grey, ground, &seen, &hands);
+            settling.settle(&mut known, false);
+            Some(Ok(known))
+        }
+        Err(why) => {
+            // Shots of one person are taken from one place: the face may be where it was in the neutral one.
+            let share = shot.grey.width() as f64 / neutral.grey.width().max(1) as f64;
+            let f = ground.frame;
+            let at = (f.at.to_vec2() * share).to_point();
+            let place = Similarity { a: f.a * share, b: f.b * share, at };
+            let seen = Seen {
+                place,
+                moves: vec![Vec2::ZERO; ground.named.len()],
+                errors: vec![0.1; ground.named.len()],
+                turned: 0.0,
+            };
+            let mut known = placed(shot.grey, ground, &seen, &hands);
+            Some(if settling.settle(&mut known, true) { Ok(known) } else { Err(why) })
+        }
+    }
 }
 
 /// The points of a shot that a hand has set, by their place among the model's.
@@ -195,13 +238,10 @@ fn finish(
             points: shot.points.clone(),
             source: if shot.is_marked() { Source::Marked } else { Source::Found(shot.confidence()) },
         },
-        None => Shape {
-            points: ground.on_neutral(&ground.moves.emotion(Emotion::ALL[i])),
-            source: Source::Modelled,
-        },
+        None => Shape { points: ground.on_neutral(&ground.moves.emotion(Emotion::ALL[i])), source: Source::Modelled },
     });
     let calibration = Calibration::new(shapes, inputs.binding.clone())?;
-    let Taught { model } = person::train(ground, &known)?;
+    let model = person::train(ground, &known)?;
     let quality = Quality::of(&calibration, &known, &refused, &model);
     let shots = known.map(|shot| {
         shot.map(|shot| {
@@ -219,6 +259,3 @@ fn finish(
     shots[0] = inputs.shots[0].as_ref().map(|s| s.points.clone());
     Ok(Calibrated { calibration, model, quality, shots })
 }
-
-#[allow(dead_code, reason = "a name for what find gives")]
-type Seeable = Found;

@@ -39,7 +39,8 @@ impl Flesh {
     /// Of a model's points in the frame of the neutral pupils, and the ways that the rig has for them.
     pub fn new(points: &[Point], rig: &DMatrix<f64>) -> Self {
         let n = points.len();
-        let centres: Vec<Point> = if n <= 60 { points.to_vec() } else { points.iter().step_by(n.div_ceil(50)).copied().collect() };
+        let centres: Vec<Point> =
+            if n <= 60 { points.to_vec() } else { points.iter().step_by(n.div_ceil(50)).copied().collect() };
         let density = |c: &Point| {
             let near: f64 = centres.iter().map(|d| (-c.distance_squared(*d) / (BUMP.0 * BUMP.0)).exp()).sum();
             near.max(1.0).sqrt()
@@ -58,7 +59,14 @@ impl Flesh {
     }
 
     /// Moves points from `start` to where they look as in `looks`. `fixed` are known, in pixels.
-    pub fn closer(&self, view: &View, looks: &[Patches], start: &Laid, fixed: &[(usize, Point)], reaches: &[f64]) -> Laid {
+    pub fn closer(
+        &self,
+        view: &View,
+        looks: &[Patches],
+        start: &Laid,
+        fixed: &[(usize, Point)],
+        reaches: &[f64],
+    ) -> Laid {
         let mut laid = start.clone();
         for reach in reaches {
             let seen = sights(view, &laid.place, &laid.points, looks, *reach);

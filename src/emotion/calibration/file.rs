@@ -125,7 +125,9 @@ impl CalibrationFile {
             let fault = |what: &str| {
                 let key = format!("\"{name}\"");
                 let at = text.lines().position(|l| l.starts_with(&key) || l.starts_with(name.as_str()));
-                Fault::new(format!("{what} `{name}` of [binding]")).line(at.map_or(line("[binding]"), |l| l + 1)).help(AGAIN)
+                Fault::new(format!("{what} `{name}` of [binding]"))
+                    .line(at.map_or(line("[binding]"), |l| l + 1))
+                    .help(AGAIN)
             };
             let point = FeaturePoint::named(name).ok_or_else(|| fault("there is no feature point"))?;
             let whole: f64 = sum.iter().map(|s| s.1).sum();
@@ -138,7 +140,9 @@ impl CalibrationFile {
         for (name, sum) in &table.inputs {
             if sum.len() != 64 || !sum.bytes().all(|b| b.is_ascii_hexdigit()) {
                 let at = text.lines().position(|l| l.contains(name.as_str())).map_or(line("[inputs]"), |l| l + 1);
-                return Err(Fault::new(format!("`{name}` has no SHA-256 of 64 hexadecimal digits")).line(at).help(AGAIN));
+                return Err(Fault::new(format!("`{name}` has no SHA-256 of 64 hexadecimal digits"))
+                    .line(at)
+                    .help(AGAIN));
             }
         }
         if table.quality.shots.len() != 7 {

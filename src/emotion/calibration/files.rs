@@ -99,7 +99,11 @@ impl ShotFiles {
                 if let Some(path) = beside(emotion.name(), &ANNOTATIONS) {
                     files.points[i] = files.annotation(&path, size)?;
                     if files.points[i].len() != files.points[0].len() {
-                        let what = format!("it has {} points, the neutral one {}", files.points[i].len(), files.points[0].len());
+                        let what = format!(
+                            "it has {} points, the neutral one {}",
+                            files.points[i].len(),
+                            files.points[0].len()
+                        );
                         return Err(Fault::new(what).at(&path).help("mark the same points in every shot"));
                     }
                 }

@@ -138,10 +138,3 @@ pub(super) fn joined(place: &Similarity, q: &Similarity) -> Similarity {
 fn is_still(p: P) -> bool {
     matches!(p.part(), Part::Nose) || [P::P3_12, P::P3_8, P::P3_11, P::P3_7, P::P11_2, P::P11_3].contains(&p)
 }
-
-impl Seen {
-    /// A named point in pixels of the shot.
-    pub fn at(&self, rest: Point, i: usize) -> Point {
-        self.place.apply(rest + self.moves[i])
-    }
-}

@@ -13,14 +13,15 @@ mod moves;
 mod patches;
 mod person;
 mod quality;
+mod settle;
 mod spread;
 mod warped;
 
 pub use calibrate::{Calibrated, calibrate};
-pub use inputs::{Inputs, ShotInput};
 pub use kept::Kept;
 pub use file::CalibrationFile;
 pub use files::ShotFiles;
+pub use inputs::{Inputs, ShotInput};
 pub use marks::Marks;
 pub use quality::{Quality, Retake, ShotQuality};
 

@@ -1,9 +1,8 @@
 //! How a person's own points move when the rig moves a face: differences of the rig's poses, in pupil distances, laid
 //! on the points as they were marked.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-use crate::emotion::Binding;
 use crate::face::rig::{Expression, Expressions, Neutral, Proportions};
 use crate::face::{FeaturePoint as P, Part, Points};
 use crate::geometry::{Point, Vec2};

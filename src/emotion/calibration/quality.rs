@@ -173,7 +173,9 @@ impl Quality {
             let strength = |e: Emotion| self.shots[e.index()].strength;
             let weaker = [a, b].into_iter().filter(|e| source(*e) != Source::Modelled);
             if let Some(which) = weaker.min_by(|x, y| strength(*x).total_cmp(&strength(*y))) {
-                let what = format!("{a} and {b} look nearly the same ({angle:.0}° apart): they will be mistaken for each other");
+                let what = format!(
+                    "{a} and {b} look nearly the same ({angle:.0}° apart): they will be mistaken for each other"
+                );
                 wrong.push((2.2, which, what));
             }
         }

@@ -43,7 +43,8 @@ pub(super) fn bent(grey: &Grey, from: &[Point], to: &[Point], scale: f64) -> (Gr
         let before = (ob - oa).cross(oc - oa) * scale * scale;
         let face = t.iter().all(|i| *i < from.len());
         let opened = face && area.abs() > OPENED * before.abs() && area.abs() > 6.0;
-        let range = |l: f64, h: f64, n: usize| l.ceil().max(0.0) as usize..=(h.floor().min(n as f64 - 1.0)).max(0.0) as usize;
+        let range =
+            |l: f64, h: f64, n: usize| l.ceil().max(0.0) as usize..=(h.floor().min(n as f64 - 1.0)).max(0.0) as usize;
         for y in range(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), height) {
             for x in range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width) {
                 let p = Point::new(x as f64, y as f64) - a;

@@ -220,7 +220,11 @@ mod tests {
         assert_eq!(rows.len(), 7);
         for (row, emotion) in rows.iter().zip(Emotion::ALL) {
             assert!(row.starts_with(emotion.name()));
-            assert_eq!(row.split(',').skip(1).filter(|c| c.parse::<f64>().is_ok()).count(), EXPRESSION_NUMBERS, "{row}");
+            assert_eq!(
+                row.split(',').skip(1).filter(|c| c.parse::<f64>().is_ok()).count(),
+                EXPRESSION_NUMBERS,
+                "{row}"
+            );
         }
     }
 
