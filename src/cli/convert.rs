@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::output_fault;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 use crate::emotion::import::{self, Kind as Ratios};
-use crate::emotion::{Record, Tracks, Whole, to_lpr};
+use crate::emotion::{Calibration, Record, Tracks, Whole, to_lpr};
 use crate::timing::{self, Format};
 
 /// What `lianpu convert` is asked.
@@ -55,7 +55,8 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         Kind::Times => {}
     }
     if args.to == "lpr" || args.tracks.is_some() || args.face.is_some() {
-        let what = if args.to == "lpr" { "this cannot be written as `lpr`" } else { "`--tracks` and `--face` are for ratios" };
+        let what =
+            if args.to == "lpr" { "this cannot be written as `lpr`" } else { "`--tracks` and `--face` are for ratios" };
         return Err(Fault::new(what).at(&args.file).help("only ratio records have that").of_the_call());
     }
     let text = times(args, args.to.parse().map_err(Fault::of_the_call)?)?;
@@ -123,7 +124,7 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         let text = disk::read_text(&args.file)?;
         (Record::parse_json(&text).map_err(at)?, None, Vec::new(), None)
     } else {
-        let calibration = args.face.as_deref().map(super::calibration_of).transpose()?;
+        let calibration = args.face.as_deref().map(calibration_of).transpose()?;
         let (record, tracks, notes) = import::parse(bytes, calibration.as_ref()).map_err(at)?;
         (record, tracks, notes, None)
     };
@@ -141,7 +142,9 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
             match (&own, &args.tracks) {
                 (Some(tracks), Some(path)) => disk::write_whole(path, tracks.to_csv().as_bytes())?,
                 (Some(_), None) => eprintln!("note: eyes, mouth and head are left out; `--tracks FILE` writes them"),
-                (None, Some(_)) => return Err(Fault::new("the file has no eyes, mouth and head to write").at(&args.file)),
+                (None, Some(_)) => {
+                    return Err(Fault::new("the file has no eyes, mouth and head to write").at(&args.file));
+                }
                 (None, None) => {}
             }
             put(args.out.as_deref(), text.as_bytes(), out)?;
@@ -152,6 +155,11 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         Some(fault) => Err(fault.at(&args.file)),
         None => Ok(()),
     }
+}
+
+/// The calibration of a face's folder.
+fn calibration_of(folder: &Path) -> Result<Calibration> {
+    Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that"))
 }
 
 /// The tracks that go with a `ratios.csv`: those that are named, or the `tracks.csv` in its folder.

@@ -12,6 +12,7 @@ pub mod import;
 mod lpr;
 mod record;
 mod smooth;
+mod stream;
 mod table;
 mod tracks;
 
@@ -25,5 +26,6 @@ pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};
 pub use record::{Record, Row};
 pub use smooth::{SMOOTH_WIDTH, Steady, smooth_keeping_peaks, smooth_record, smooth_tracks};
+pub use stream::RecordReader;
 pub(crate) use table::decimal;
 pub use tracks::{MouthMoves, TrackRow, Tracks};

@@ -50,8 +50,10 @@ const SPEECH: [&[(&str, f64)]; 6] = [
 /// How far a tracker's values are off, of 1.
 const NOISE: f64 = 0.12;
 
-/// What is below this in every frame was not measured: some trackers know no sneer.
-const NOT_SEEN: f64 = 0.02;
+/// What mediapipe has the names of and never tells (its cheeks and sneers stay near 0): where no frame has more than
+/// this, they were not measured. Of the others, none at all says something: brows that stay down are no surprise.
+const NOT_TOLD: [&str; 2] = ["cheeksquint", "nosesneer"];
+const NOTHING: f64 = 0.02;
 
 struct Feature {
     name: String,
@@ -106,20 +108,22 @@ pub(super) fn is_known(name: &str) -> bool {
 /// Reads frames of blendshapes as ratios.
 pub(super) struct Reader {
     decomposition: Decomposition,
-    /// Features that no frame has.
+    /// Features that no frame tells.
     pub unseen: Vec<&'static str>,
 }
 
 impl Reader {
-    /// For a clip of these frames: what none of them has, does not count.
+    /// For a clip of these frames: what none of them tells, does not count.
     pub fn of<'a>(frames: impl Iterator<Item = &'a Shapes>) -> Result<Self> {
-        let mut most = vec![0.0_f64; FEATURES.len()];
+        let mut seen = vec![false; FEATURES.len()];
         for shapes in frames {
-            for (most, feature) in most.iter_mut().zip(FEATURES.iter()) {
-                *most = most.max(value(shapes, &feature.name));
+            for (seen, feature) in seen.iter_mut().zip(FEATURES.iter()) {
+                let is_there = feature.sides.iter().chain([&feature.name]).any(|name| shapes.contains_key(name));
+                let least = if NOT_TOLD.contains(&feature.name.as_str()) { NOTHING } else { 0.0 };
+                *seen |= is_there && value(shapes, &feature.name) >= least;
             }
         }
-        let seen = |i: usize| most[i] >= NOT_SEEN;
+        let seen = |i: usize| seen[i];
         let shapes: [Vec<Point>; 7] =
             std::array::from_fn(|e| FEATURES.iter().map(|f| Point::new(f.full[e], 0.0)).collect());
         let weights: Vec<f64> =

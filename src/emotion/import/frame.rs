@@ -47,7 +47,7 @@ const OUTWARD: [(&str, f64); 5] = [
 pub(super) fn by_blendshapes(frames: &[Seen], notes: &mut Vec<String>) -> Result<Record> {
     let reader = Reader::of(frames.iter().filter(|f| f.confidence > 0.0).map(|f| &f.shapes))?;
     if !reader.unseen.is_empty() {
-        notes.push(format!("no frame has {}: read without", reader.unseen.join(", ")));
+        notes.push(format!("no frame tells {}: read without", reader.unseen.join(", ")));
     }
     notes.push("the ratios follow a table of typical blendshapes, not this person's calibration".to_owned());
     Ok(record(frames, |f| reader.ratios(&f.shapes)))

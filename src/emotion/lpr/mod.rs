@@ -83,8 +83,10 @@ pub struct Moment {
     pub track: Option<TrackRow>,
 }
 
+/// The first byte of a record, which no text begins with.
+pub(super) const LPR_FIRST: u8 = 0x8C;
 /// What a record begins with.
-const MAGIC: [u8; 4] = [0x8C, b'L', b'P', b'R'];
+const MAGIC: [u8; 4] = [LPR_FIRST, b'L', b'P', b'R'];
 /// The version that is written, and the last one that is read.
 const VERSION: u8 = 1;
 /// Bytes of the head.
