@@ -29,8 +29,6 @@ const EVERY: u32 = 5;
 const SURE: f64 = 0.7;
 /// The same where an old pair stands for a new one.
 const UNSURE: f64 = 0.4;
-/// Corners of an eye from its pupil, in pupil distances, where the neutral face does not say.
-const CORNER: f64 = 0.2;
 
 /// Follows the eyes and the mouth of a face through a video by regions. The neutral face gives the first regions; where it
 /// is another picture's, a face is searched for in the frame. `go_on` is told how many frames are done, of how many, and
@@ -98,8 +96,7 @@ impl Watch<'_> {
         let (left, right) = (eyes.balls.left.centre, eyes.balls.right.centre);
         let frame = frame_of(left, right)?;
         let moves = mouth.follow(grey, &frame);
-        let height = |k: usize| eyes.boxes[k].height() as f64 / frame.scale();
-        let open = [height(0) / heights[0], height(1) / heights[1]];
+        let open: [f64; 2] = std::array::from_fn(|k| eyes.heights[k] / frame.scale() / heights[k]);
         // The eyeball against its region's box, in eye heights: the box is as wide as the opening.
         let iris = [eyes.balls.left, eyes.balls.right].iter().zip(&eyes.boxes).zip(*heights).fold(Vec2::ZERO, |sum, ((ball, b), h)| {
             sum + (ball.centre - b.centre()) / (h * frame.scale()) * 0.5
@@ -121,25 +118,20 @@ impl Watch<'_> {
 
     /// The first regions: where the neutral face has them if it is this picture, else where a face is found.
     fn begun(&self, grey: &Grey) -> Option<(Eyes, Mouth, [f64; 2])> {
-        let own = |p: P| self.face.points[p.index()].at;
         let found = find(&grey.to_photo(), &[]).ok();
-        let here = self.face.photo.size == [grey.width() as u32, grey.height() as u32];
-        // A neutral photo of another size or place is another picture.
-        let near = found.as_ref().is_none_or(|f| {
-            let d = own(P::P3_6).distance(own(P::P3_5));
-            f.points[P::P3_6.index()].at.distance(own(P::P3_6)) < 0.1 * d
-        });
-        let points = match &found {
-            _ if here && near => &self.face.points,
-            Some(found) => &found.points,
-            None => return None,
-        };
+        let own = |p: P| self.face.points[p.index()].at;
+        let pupils = own(P::P3_6).distance(own(P::P3_5));
+        // The thesis's first frame is the neutral photo. Where a face is found in the same place, that one's points, which a
+        // hand may have set, are the better ones; of another photo they say nothing.
+        let here = self.face.photo.size == [grey.width() as u32, grey.height() as u32]
+            && found.as_ref().is_some_and(|f| f.points[P::P3_6.index()].at.distance(own(P::P3_6)) < 0.05 * pupils);
+        let points = if here { &self.face.points } else { &found.as_ref()?.points };
         let at = |p: P| points[p.index()].at;
         let eyes = Eyes::reserved(grey, at(P::P3_6), at(P::P3_5))?;
         let frame = frame_of(eyes.balls.left.centre, eyes.balls.right.centre)?;
         let marks = [P::P8_4, P::P8_3, P::P8_1, P::P8_2, P::P9_15].map(|p| frame.undo(at(p)));
         let mouth = Mouth::reserved(grey, &frame, marks)?;
-        let heights = eyes.boxes.map(|b| (b.height() as f64 / frame.scale()).clamp(0.05, CORNER));
+        let heights = eyes.heights.map(|h| (h / frame.scale()).clamp(0.03, 0.25));
         Some((eyes, mouth, heights))
     }
 }

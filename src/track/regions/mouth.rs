@@ -1,17 +1,22 @@
-//! The mouth from frame to frame by a reserved threshold of edges and seeds (thesis sec. 6.3).
+//! The mouth from frame to frame by a reserved threshold and seeds (thesis sec. 6.3).
+//!
+//! The thesis grows edges; those run on into chin and cheeks. On 1241 frames of a man talking their height goes with a
+//! model's mouth by a correlation of 0.58 and their width by 0.27, those of the dark between his lips by 0.75 and 0.60, so
+//! that is what grows here.
 
-use super::window::Window;
+use super::window::{Window, below};
 use crate::aam::{Grey, Similarity};
 use crate::emotion::MouthMoves;
 use crate::geometry::{Point, Rect, Vec2};
-use crate::photo::{Mask, Neighbours, Regions, moment_preserving, sobel};
+use crate::photo::{Mask, Neighbours, Regions};
 use crate::pose::{MouthPose, MouthPreset, MouthShape};
 
-/// How far beside, above and below the neutral mouth its edges are looked for, in pupil distances: the nose's base stays
-/// outside.
-const BESIDE: f64 = 0.22;
+/// How far beside, above and below the neutral mouth it is looked for, in pupil distances: the nose's base stays outside.
+const BESIDE: f64 = 0.24;
 const ABOVE: f64 = 0.06;
-const BELOW: f64 = 0.34;
+const BELOW: f64 = 0.24;
+/// How many deviations below the mean of its window the dark between lips is.
+const DARKER: f64 = 1.4;
 /// How near to one of the nine a mouth is to become it, in units of its opening (M) and, five times as much, its width
 /// (MW0).
 const NEAR: f64 = 0.18;
@@ -20,10 +25,10 @@ const WIDTHS: f64 = 5.0;
 /// What is followed of the mouth. All is in the frame of the eyes, their distance 1, the origin midway.
 #[derive(Debug, Clone)]
 pub(super) struct Mouth {
-    /// The threshold of edges, reserved from the first frame.
+    /// The threshold, reserved from the first frame.
     threshold: f32,
-    /// R_Mouth of the first frame, and where it is looked for.
-    rest: Rect,
+    /// The mouth of the first frame, and where it is looked for.
+    rest: Opening,
     search: Rect,
     /// The places of the last region's pixels: the seeds of the next one.
     seeds: Vec<Point>,
@@ -31,18 +36,32 @@ pub(super) struct Mouth {
     units: [f64; 2],
 }
 
+/// The dark between lips: the ends of the line and how high it is, were it as high everywhere.
+#[derive(Debug, Clone, Copy)]
+struct Opening {
+    left: f64,
+    right: f64,
+    height: f64,
+}
+
 impl Mouth {
     /// From the neutral mouth in the first frame: its corners, the edges of its upper and lower lip, the nose's base, all in
-    /// the frame of the eyes. None where it has no edges.
+    /// the frame of the eyes. None where nothing dark is between the lips.
     pub fn reserved(grey: &Grey, eyes: &Similarity, [left, right, upper, lower, nose]: [Point; 5]) -> Option<Self> {
         let own = Rect::new(left.x, upper.y, right.x, lower.y);
         let search = Rect::new(own.x0 - BESIDE, (own.y0 - ABOVE).max(nose.y + 0.03), own.x1 + BESIDE, own.y1 + BELOW);
         let units = [(upper.y - nose.y).max(0.05), (right.x - left.x).max(0.1)];
-        let n = 12;
-        let seeds = (0..=n).map(|i| left.lerp(right, f64::from(i) / f64::from(n))).collect();
-        let mut mouth = Self { threshold: 0.0, rest: own, search, seeds, units };
-        let window = mouth.window(grey, eyes)?;
-        mouth.threshold = moment_preserving(sobel(&window.plane()).values.iter().copied())?;
+        // Where the lips of a mouth at rest meet: its line sags or rises, so what is seeded is a little high.
+        let middle = upper.midpoint(lower);
+        let reach = 0.12;
+        let seeds = (-4..=4)
+            .flat_map(|i| (-3..=3).map(move |j| (f64::from(i) / 4.0, f64::from(j) / 3.0)))
+            .map(|(i, j)| middle + Vec2::new(0.6 * i * (right.x - middle.x), reach * j))
+            .collect();
+        let rest = Opening { left: left.x, right: right.x, height: 0.0 };
+        let mut mouth = Self { threshold: 0.0, rest, search, seeds, units };
+        let values: Vec<f32> = mouth.window(grey, eyes)?.values().collect();
+        mouth.threshold = below(&values, DARKER)?;
         mouth.rest = mouth.grown(grey, eyes)?;
         Some(mouth)
     }
@@ -55,20 +74,18 @@ impl Mouth {
         Window::of(grey, low, high)
     }
 
-    /// R_Mouth: what grows from the seeds along edges; its box in the frame of the eyes.
-    fn grown(&mut self, grey: &Grey, eyes: &Similarity) -> Option<Rect> {
+    /// What is dark and grows from the seeds.
+    fn grown(&mut self, grey: &Grey, eyes: &Similarity) -> Option<Opening> {
         let window = self.window(grey, eyes)?;
         let b = window.bounds;
-        let edges = Mask::of(&sobel(&window.plane()), |v| v > self.threshold);
-        let regions = Regions::of(&edges, Neighbours::Eight);
+        let bits = window.values().map(|v| v <= self.threshold).collect();
+        let regions = Regions::of(&Mask { width: b.width(), height: b.height(), bits }, Neighbours::Eight);
         let mut seeded = vec![false; regions.list.len() + 1];
         for at in &self.seeds {
             let p = eyes.apply(*at);
-            for (dx, dy) in [(0.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)] {
-                let (x, y) = ((p.x + dx).round(), (p.y + dy).round());
-                if x >= 0.0 && y >= 0.0 && b.holds(x as usize, y as usize) {
-                    seeded[regions.labels[(y as usize - b.y0) * b.width() + x as usize - b.x0] as usize] = true;
-                }
+            let (x, y) = (p.x.round(), p.y.round());
+            if x >= 0.0 && y >= 0.0 && b.holds(x as usize, y as usize) {
+                seeded[regions.labels[(y as usize - b.y0) * b.width() + x as usize - b.x0] as usize] = true;
             }
         }
         seeded[0] = false;
@@ -80,30 +97,30 @@ impl Mouth {
             .map(|(at, _)| eyes.undo(Point::new((b.x0 + at % b.width()) as f64, (b.y0 + at / b.width()) as f64)))
             .filter(|p| self.search.contains(*p))
             .collect();
-        if places.len() < 8 {
+        if places.len() < 4 {
             return None;
         }
-        // A few pixels at the ends are stray edges of the cheeks.
-        let span = |mut v: Vec<f64>, share: f64| {
-            v.sort_by(f64::total_cmp);
-            let cut = (share * v.len() as f64) as usize;
-            (v[cut], v[v.len() - 1 - cut])
-        };
-        let (x0, x1) = span(places.iter().map(|p| p.x).collect(), 0.01);
-        let (y0, y1) = span(places.iter().map(|p| p.y).collect(), 0.02);
+        let mut across: Vec<f64> = places.iter().map(|p| p.x).collect();
+        across.sort_by(f64::total_cmp);
+        // A pixel or two at the ends may be a fold of the cheek.
+        let cut = across.len() / 100;
+        let (left, right) = (across[cut], across[across.len() - 1 - cut]);
+        let area = places.len() as f64 / (eyes.scale() * eyes.scale());
         self.seeds = places;
-        Some(Rect::new(x0, y0, x1, y1))
+        Some(Opening { left, right, height: area / self.units[1] })
     }
 
-    /// How the mouth of the next frame has moved; none where it has no edges, and the old seeds stay.
+    /// How the mouth of the next frame has moved; none where nothing is dark, and the old seeds stay. Of what it opens, a
+    /// quarter is the upper lip's, as in the nine shapes.
     pub fn follow(&mut self, grey: &Grey, eyes: &Similarity) -> Option<MouthMoves> {
         let now = self.grown(grey, eyes)?;
         let [mns, mw] = self.units;
+        let open = (now.height - self.rest.height) / mns;
         Some(MouthMoves {
-            up: (self.rest.y0 - now.y0) / mns,
-            down: (now.y1 - self.rest.y1) / mns,
-            left: (self.rest.x0 - now.x0) / mw,
-            right: (now.x1 - self.rest.x1) / mw,
+            up: 0.25 * open,
+            down: 0.75 * open,
+            left: (self.rest.left - now.left) / mw,
+            right: (now.right - self.rest.right) / mw,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::aam::Grey;
 use crate::geometry::Point;
-use crate::photo::{Bounds, Plane};
+use crate::photo::Bounds;
 
 /// A box of a picture that is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -28,8 +28,12 @@ impl<'g> Window<'g> {
             grey.pixels()[row + b.x0..row + b.x1].iter().map(|v| f32::from(*v))
         })
     }
+}
 
-    pub fn plane(&self) -> Plane {
-        Plane { width: self.bounds.width(), height: self.bounds.height(), values: self.values().collect() }
-    }
+/// So many standard deviations below the mean; none of no values.
+pub(super) fn below(values: &[f32], deviations: f64) -> Option<f32> {
+    let n = values.len() as f64;
+    let mean = values.iter().map(|v| f64::from(*v)).sum::<f64>() / n;
+    let square = values.iter().map(|v| (f64::from(*v) - mean).powi(2)).sum::<f64>() / n;
+    (n > 0.0).then(|| (mean - deviations * square.sqrt()) as f32)
 }
