@@ -64,8 +64,20 @@ impl Act {
     ];
 
     const fn from(a: [f32; COUNT]) -> Act {
-        let [brow_inner, brow_middle, brow_outer, brow_in, lid_upper, lid_lower, closed, gaze_x, gaze_y, cheek, sneer, ..] =
-            a;
+        let [
+            brow_inner,
+            brow_middle,
+            brow_outer,
+            brow_in,
+            lid_upper,
+            lid_lower,
+            closed,
+            gaze_x,
+            gaze_y,
+            cheek,
+            sneer,
+            ..,
+        ] = a;
         let [.., corner_out, corner_down, upper, bare, lower, jaw, press, pout, crease, frown, forehead, wrinkle] = a;
         Act {
             brow_inner,

@@ -131,7 +131,11 @@ impl<'a> Figure<'a> {
             let p = from + to * t;
             let (d, stuff) = self.nearest(p);
             if d < -0.04 {
-                return Some(if start > 0.0 { self.nearer(from, to, before, t) } else { self.between(from, to, before, t) });
+                return Some(if start > 0.0 {
+                    self.nearer(from, to, before, t)
+                } else {
+                    self.between(from, to, before, t)
+                });
             }
             if d < 0.04 {
                 return Some((p, stuff));
@@ -310,9 +314,8 @@ impl<'a> Figure<'a> {
     pub fn seen_again(&self, canvas: &Canvas, before: &Exposure) -> Exposure {
         let wide = before.wide;
         let per_unit = canvas.per_unit() / COARSE as f32;
-        let ray = |row: usize, column: usize| {
-            self.stand.ray((column as f32 + 0.5) / per_unit, (row as f32 + 0.5) / per_unit)
-        };
+        let ray =
+            |row: usize, column: usize| self.stand.ray((column as f32 + 0.5) / per_unit, (row as f32 + 0.5) / per_unit);
         let in_face = |from: V, to: V| {
             let at = from + to * ((from.2 - 100.0) / -to.2);
             let (x, y) = (at.0 / 112.0, (at.1 - 60.0) / if at.1 < 60.0 { 164.0 } else { 180.0 });

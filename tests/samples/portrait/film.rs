@@ -101,7 +101,9 @@ pub fn develop_held(canvas: &Canvas, side: usize, held: &Held, seed: u64) -> Vec
                     let (u, v) = (at.0 * fine - 0.5, at.1 * fine - 0.5);
                     let (iu, iv) = (u.round() as i32, v.round() as i32);
                     let weights = |from: i32, at: f32| -> [f32; 16] {
-                        std::array::from_fn(|k| (-0.5 * ((from - reach + k as i32) as f32 - at).powi(2) / sigma / sigma).exp())
+                        std::array::from_fn(|k| {
+                            (-0.5 * ((from - reach + k as i32) as f32 - at).powi(2) / sigma / sigma).exp()
+                        })
                     };
                     let (wx, wy) = (weights(iu, u), weights(iv, v));
                     let (mut sum, mut total) = (V::ZERO, 0.0);

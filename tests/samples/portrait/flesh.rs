@@ -33,8 +33,14 @@ pub struct Flesh {
 
 impl Flesh {
     pub fn new(act: Act, line: &Curve) -> Flesh {
-        let mut flesh =
-            Flesh { act, line: line.clone(), tables: [vec![], vec![]], edges: [vec![], vec![]], corner: 0.0, gape: 0.0 };
+        let mut flesh = Flesh {
+            act,
+            line: line.clone(),
+            tables: [vec![], vec![]],
+            edges: [vec![], vec![]],
+            corner: 0.0,
+            gape: 0.0,
+        };
         flesh.corner = flesh.moved(CORNER, line.at(CORNER), false).0;
         flesh.edges = [false, true].map(|low| flesh.edge(low));
         flesh.gape = flesh.edges[0].iter().zip(&flesh.edges[1]).map(|(a, b)| b - a).fold(0.0, f32::max);

@@ -104,7 +104,11 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
         }
     }
 
-    let lips = if who.open > 0.0 || head.gape() > 0.0 || (x < 42.0 && y > 80.0 && y < 126.0) { l.on_lips(x, y, 1.7) * front } else { 0.0 };
+    let lips = if who.open > 0.0 || head.gape() > 0.0 || (x < 42.0 && y > 80.0 && y < 126.0) {
+        l.on_lips(x, y, 1.7) * front
+    } else {
+        0.0
+    };
     if lips > 0.0 {
         let lines = 1.0 + 0.09 * grain(V(q.0 * 0.7, q.1 * 0.12, 3.0)) + 0.05 * fine;
         let seam = spot(l.lip_line.below(x, y) / 1.5);

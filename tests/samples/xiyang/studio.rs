@@ -52,7 +52,8 @@ impl Studio {
         let scalp = hair::scalp(&head);
         let mass = Mass::of(&scalp, &head.skull);
         let wall = Canvas::wall(whole, &rig);
-        let mut hair = Canvas { side: whole, colour: vec![V::ZERO; wall.colour.len()], near: vec![f32::MIN; wall.near.len()] };
+        let mut hair =
+            Canvas { side: whole, colour: vec![V::ZERO; wall.colour.len()], near: vec![f32::MIN; wall.near.len()] };
         strand::expose(&scalp, &mass, &STAND, &rig, &mut hair);
         let rest = Figure::new(&head, &mass, STAND, rig).seen(&wall);
         let mut brows = Vec::new();
@@ -63,9 +64,12 @@ impl Studio {
     /// Takes a picture of what the face does; `seed` is the grain's.
     pub fn take(&self, act: &Act, pose: Pose, seed: u64) -> Taken {
         let head = self.head.doing(*act);
-        let mut canvas = Canvas { side: self.wall.side, colour: self.wall.colour.clone(), near: self.wall.near.clone() };
+        let mut canvas =
+            Canvas { side: self.wall.side, colour: self.wall.colour.clone(), near: self.wall.near.clone() };
         Figure::new(&head, &self.mass, STAND, self.rig).seen_again(&canvas, &self.rest).put(&mut canvas);
-        for (to, from) in canvas.colour.iter_mut().zip(&mut canvas.near).zip(self.hair.colour.iter().zip(&self.hair.near)) {
+        for (to, from) in
+            canvas.colour.iter_mut().zip(&mut canvas.near).zip(self.hair.colour.iter().zip(&self.hair.near))
+        {
             if *from.1 > *to.1 {
                 (*to.0, *to.1) = (*from.0, *from.1);
             }
