@@ -19,7 +19,7 @@ mod tracks;
 pub use binding::Binding;
 pub use bridge::{bridge_record, bridge_tracks};
 pub use calibration::{
-    Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles, ShotInput,
+    CALIBRATION, Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles, ShotInput,
     ShotQuality, Source, calibrate,
 };
 pub use decompose::{Choice, Decomposition, Reading};

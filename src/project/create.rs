@@ -9,7 +9,7 @@ use super::video::FRAMES_FPS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
-use crate::emotion::{Kept, Quality, Record};
+use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
 use crate::pose::Emotion;
@@ -267,7 +267,7 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
         timing::read(path)?;
     }
     if let Some(path) = &new.ratios {
-        Record::parse(&read_text(path)?).map_err(|f| f.at(path))?;
+        import::read(path)?;
     }
     Ok(())
 }
@@ -289,7 +289,11 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
         write_whole(&folder.join("timing.TextGrid"), timing::write(&timing, Format::TextGrid).as_bytes())?;
     }
     if let Some(path) = &new.ratios {
-        write_whole(&folder.join("ratios.csv"), read_text(path)?.as_bytes())?;
+        let (record, tracks, _) = import::read(path)?;
+        write_whole(&folder.join("ratios.csv"), record.to_csv().as_bytes())?;
+        if let Some(tracks) = tracks {
+            write_whole(&folder.join("tracks.csv"), tracks.to_csv().as_bytes())?;
+        }
     }
     if let Some(path) = &new.video {
         copy_video(path, &folder)?;

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use super::video::FRAMES_FPS;
-use super::{Clip, Lesson, LessonFace};
+use super::{Clip, Lesson};
 use crate::disk::{Fault, Result};
 use crate::emotion::Kept;
 use crate::face::Face;
@@ -121,16 +121,6 @@ fn calibration(folder: &std::path::Path) -> Result<(Kept, Vec<String>)> {
 fn checksum(source: &Source, kept: &Kept, method: Method, options: &Options) -> Result<String> {
     let text = format!("{} {} {method:?} {options:?}", source.fingerprint()?, kept.fingerprint());
     Ok(format!("{:08x}", crc32fast::hash(text.as_bytes())))
-}
-
-impl LessonFace {
-    /// Its calibration, where it has been made.
-    ///
-    /// # Errors
-    /// When its files are damaged.
-    pub fn calibration(&self) -> Result<Option<Kept>> {
-        Kept::read(&self.folder)
-    }
 }
 
 impl Clip {

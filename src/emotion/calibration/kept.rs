@@ -9,7 +9,7 @@ use crate::disk::{Fault, Result, write_whole};
 use crate::pose::Emotion;
 
 /// The name of the calibration's file.
-const CALIBRATION: &str = "calibration.toml";
+pub const CALIBRATION: &str = "calibration.toml";
 /// The name of the model's file.
 const MODEL: &str = "model.aam";
 

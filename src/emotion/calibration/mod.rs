@@ -18,7 +18,7 @@ mod spread;
 mod warped;
 
 pub use calibrate::{Calibrated, calibrate};
-pub use kept::Kept;
+pub use kept::{CALIBRATION, Kept};
 pub use file::CalibrationFile;
 pub use files::ShotFiles;
 pub use inputs::{Inputs, ShotInput};

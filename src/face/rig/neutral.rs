@@ -67,6 +67,12 @@ impl Neutral {
         self
     }
 
+    /// How it shows the emotions.
+    #[must_use]
+    pub fn expressions(&self) -> &Expressions {
+        &self.expressions
+    }
+
     /// The points at rest, as drawn.
     #[must_use]
     pub fn points(&self) -> &Points {
