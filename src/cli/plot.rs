@@ -91,7 +91,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                     .of_the_call());
             };
             let pose = timeline.pose(at);
-            ("frame", plot::frame(&format!("{title}, {at:.2} s"), &figure.draw(&pose), &pose.ratios))
+            ("frame", {
+                let video = clip.frame_at(at)?;
+                plot::frame(&format!("{title}, {at:.2} s"), video.as_ref(), &figure.draw(&pose), &pose.ratios)
+            })
         }
     };
     let path = match &args.out {

@@ -18,7 +18,10 @@ mod tracks;
 
 pub use binding::Binding;
 pub use bridge::{bridge_record, bridge_tracks};
-pub use calibration::{Calibration, Shape, Source};
+pub use calibration::{
+    Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles, ShotInput,
+    ShotQuality, Source, calibrate,
+};
 pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};
 pub use record::{Record, Row};

@@ -14,6 +14,7 @@ mod execute;
 mod export;
 mod face_desk;
 mod face_edits;
+mod following;
 mod keys;
 mod lane;
 mod line;

@@ -1,5 +1,29 @@
 //! A calibration: the shapes of a person's seven emotions, by which ratios are told.
 
+mod calibrate;
+mod closer;
+mod expressions;
+mod file;
+mod files;
+mod finding;
+mod inputs;
+mod kept;
+mod marks;
+mod moves;
+mod patches;
+mod person;
+mod quality;
+mod spread;
+mod warped;
+
+pub use calibrate::{Calibrated, calibrate};
+pub use inputs::{Inputs, ShotInput};
+pub use kept::Kept;
+pub use file::CalibrationFile;
+pub use files::ShotFiles;
+pub use marks::Marks;
+pub use quality::{Quality, Retake, ShotQuality};
+
 use super::{Binding, Choice, Decomposition, Reading};
 use crate::aam::Similarity;
 use crate::disk::{Fault, Result};
