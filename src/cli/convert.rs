@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::output_fault;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 use crate::emotion::import::{self, Kind as Ratios};
-use crate::emotion::{Calibration, Record, Tracks, Whole, to_lpr};
+use crate::emotion::{Record, Tracks, Whole, to_lpr};
 use crate::timing::{self, Format};
 
 /// What `lianpu convert` is asked.
@@ -124,7 +124,7 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         let text = disk::read_text(&args.file)?;
         (Record::parse_json(&text).map_err(at)?, None, Vec::new(), None)
     } else {
-        let calibration = args.face.as_deref().map(calibration_of).transpose()?;
+        let calibration = args.face.as_deref().map(super::calibration_of).transpose()?;
         let (record, tracks, notes) = import::parse(bytes, calibration.as_ref()).map_err(at)?;
         (record, tracks, notes, None)
     };
@@ -155,11 +155,6 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         Some(fault) => Err(fault.at(&args.file)),
         None => Ok(()),
     }
-}
-
-/// The calibration of a face's folder.
-fn calibration_of(folder: &Path) -> Result<Calibration> {
-    Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that"))
 }
 
 /// The tracks that go with a `ratios.csv`: those that are named, or the `tracks.csv` in its folder.
