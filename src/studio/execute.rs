@@ -14,6 +14,7 @@ use super::{Action, Place, aligning, edits, face_edits, following, listening, pl
 use crate::export::Format;
 use crate::face::{Anchors, Face};
 use crate::geometry::Point;
+use crate::pose::Emotion;
 use crate::project::{AlignJob, TrackJob};
 use crate::speech::Sound;
 use crate::track::Source;
@@ -96,10 +97,25 @@ pub enum Job {
         root: PathBuf,
         /// Number of the face.
         face: usize,
+        /// Which of its shots.
+        shot: Emotion,
         /// The photo's file.
         path: PathBuf,
         /// Its eyeballs, where they are known.
         eyes: Option<[Point; 2]>,
+        /// Somebody else's annotation of it.
+        dots: Option<PathBuf>,
+        /// Whether the stages are wanted.
+        stages: bool,
+    },
+    /// Calibrate a face from the files of its folder.
+    Calibrate {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// The face's folder.
+        folder: PathBuf,
     },
     /// Find the points of a face.
     FindFace {
@@ -310,7 +326,7 @@ fn go(state: &mut State, by: Action) {
 }
 
 /// Writes the lesson's files; whether any of them changed.
-fn save(state: &mut State) -> bool {
+pub(super) fn save(state: &mut State) -> bool {
     let Some(lesson) = state.lesson_mut() else { return false };
     let done = lesson.save();
     let any = done.as_ref().is_ok_and(|written| !written.is_empty());

@@ -7,6 +7,7 @@
 mod action;
 mod aligning;
 mod boundary;
+mod calibrating;
 mod draw;
 mod edits;
 mod editor;

@@ -19,6 +19,20 @@ const PHOTOS: [&str; 4] = ["png", "jpg", "jpeg", "webp"];
 /// Endings of somebody's own annotations.
 const ANNOTATIONS: [&str; 2] = ["pts", "asf"];
 
+/// What tells the points of a face from others, as a calibration keeps it.
+#[must_use]
+pub fn sum_of_face(face: &Face) -> String {
+    let named: Vec<(P, Point)> = P::fixed().map(|p| (p, face.points[p.index()].at)).collect();
+    sha256(format!("{named:?}").as_bytes())
+}
+
+/// The same of what a hand has set in a shot; none where nothing was set.
+#[must_use]
+pub fn sum_of_marks(points: &[Placed]) -> Option<String> {
+    let set: Vec<_> = points.iter().enumerate().filter(|(_, p)| p.how == How::Hand).collect();
+    (!set.is_empty()).then(|| sha256(format!("{set:?}").as_bytes()))
+}
+
 /// The shots of a face's folder and what is known of their points.
 #[derive(Debug, Clone)]
 pub struct ShotFiles {
@@ -70,7 +84,7 @@ impl ShotFiles {
             let read = Face::parse(&text).map_err(|f| f.at(&face))?;
             files.named = P::fixed().map(|p| (p, read.points[p.index()].at)).collect();
             // Of the face only its points matter here: a new colour of hair makes no calibration stale.
-            files.sums.insert("face.toml".into(), sha256(format!("{:?}", files.named).as_bytes()));
+            files.sums.insert("face.toml".into(), sum_of_face(&read));
             files.face = Some(read);
         }
         match beside("neutral", &ANNOTATIONS) {
@@ -114,9 +128,8 @@ impl ShotFiles {
                 let text = read_text(&path)?;
                 let marks = Marks::parse(&text).map_err(|f| f.at(&path))?;
                 // What was found is made of the other files and says nothing new; what a hand has set does.
-                let set: Vec<_> = marks.points.iter().enumerate().filter(|(_, p)| p.how == How::Hand).collect();
-                if !set.is_empty() {
-                    files.sums.insert(format!("{emotion}.toml"), sha256(format!("{set:?}").as_bytes()));
+                if let Some(sum) = sum_of_marks(&marks.points) {
+                    files.sums.insert(format!("{emotion}.toml"), sum);
                 }
                 files.points[i] = marks.points;
             }

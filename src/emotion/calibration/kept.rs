@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::{Calibrated, CalibrationFile, ShotFiles, calibrate};
+use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
 use crate::disk::{Fault, Result, write_whole};
 use crate::pose::Emotion;
@@ -20,6 +20,9 @@ pub struct Kept {
     pub made: Calibrated,
     /// The SHA-256 of what it was made from, by the files' names.
     pub inputs: BTreeMap<String, String>,
+    /// The points of the shots as `happy.toml` and so on keep them; none of somebody's own annotations, and of a
+    /// calibration that was read.
+    pub marks: Vec<(Emotion, Marks)>,
 }
 
 impl Kept {
@@ -30,7 +33,9 @@ impl Kept {
     pub fn make(folder: &Path) -> Result<Self> {
         let files = ShotFiles::of(folder)?;
         let made = files.inputs().and_then(|inputs| calibrate(&inputs)).map_err(|f| f.at(folder))?;
-        Ok(Self { made, inputs: files.sums })
+        let own = Emotion::ALL.into_iter().zip(&made.shots);
+        let marks = own.filter_map(|(e, points)| Some((e, files.marks(e, points.as_ref()?)?))).collect();
+        Ok(Self { made, inputs: files.sums, marks })
     }
 
     /// Reads the calibration of a face's folder; none where there is none.
@@ -52,7 +57,8 @@ impl Kept {
         if model.count() != calibration.binding().count() {
             return Err(Fault::new("this model is of another calibration").at(&path).help(again));
         }
-        Ok(Some(Self { made: Calibrated { calibration, model, quality, shots: Default::default() }, inputs }))
+        let made = Calibrated { calibration, model, quality, shots: Default::default() };
+        Ok(Some(Self { made, inputs, marks: Vec::new() }))
     }
 
     /// Whether a folder's shots are still those that this was made from.
@@ -74,7 +80,6 @@ impl Kept {
     /// # Errors
     /// When a file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>> {
-        let files = ShotFiles::of(folder)?;
         let mut written = Vec::new();
         let mut put = |name: String, bytes: &[u8]| -> Result<()> {
             let path = folder.join(name);
@@ -85,10 +90,8 @@ impl Kept {
             written.push(path);
             Ok(())
         };
-        for (emotion, points) in Emotion::ALL.iter().zip(&self.made.shots) {
-            if let Some(marks) = points.as_ref().and_then(|points| files.marks(*emotion, points)) {
-                put(format!("{emotion}.toml"), marks.to_toml().as_bytes())?;
-            }
+        for (emotion, marks) in &self.marks {
+            put(format!("{emotion}.toml"), marks.to_toml().as_bytes())?;
         }
         put(MODEL.into(), &self.made.model.to_bytes())?;
         let Calibrated { calibration, quality, .. } = &self.made;
