@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::execute::{Job, save};
+use super::execute::save;
+use super::job::Job;
 use super::face_edits;
 use super::state::State;
 use crate::disk::Result;

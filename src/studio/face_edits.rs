@@ -3,7 +3,7 @@
 
 use super::action::Action;
 use super::calibrating;
-use super::execute::Job;
+use super::job::Job;
 use super::face_desk::{FaceDesk, Placing, mirrored};
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
@@ -255,7 +255,8 @@ fn release_of_shot(state: &mut State) {
     let Some((desk, lesson_face)) = on_desk(state) else { return };
     let (face, shot, point) = (desk.face, desk.shot, desk.point);
     let asked = [Some(point), desk.both.then(|| point.mirror())];
-    let set = desk.points(lesson_face).into_iter().filter(|(p, placed)| asked.contains(&Some(*p)) && placed.how == How::Hand);
+    let set =
+        desk.points(lesson_face).into_iter().filter(|(p, placed)| asked.contains(&Some(*p)) && placed.how == How::Hand);
     let edits: Vec<Edit> = set
         .map(|(point, placed)| {
             let before = Spot::from(placed);

@@ -16,6 +16,7 @@ mod export;
 mod face_desk;
 mod face_edits;
 mod following;
+mod job;
 mod keys;
 mod lane;
 mod line;

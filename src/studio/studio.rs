@@ -9,7 +9,8 @@ use ratatui::layout::Rect;
 
 use super::aligning::{self, Aligner};
 use super::draw::{self, FaceLayout, Layout, Pictures};
-use super::execute::{Job, SILENT, execute};
+use super::execute::{SILENT, execute};
+use super::job::Job;
 use super::export::{Exporter, Progress};
 use super::face_desk::FaceDesk;
 use super::listening::Tone;

@@ -9,7 +9,7 @@ use std::thread;
 use crossbeam_channel::Sender;
 
 use super::aligning::Aligner;
-use super::execute::Job;
+use super::job::Job;
 use super::export::Exporter;
 use super::listening::Tone;
 use super::studio::{Listening, Report};
@@ -64,7 +64,8 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                     !stop.load(Ordering::Relaxed)
                 };
                 let found = catch_unwind(AssertUnwindSafe(|| job.run(&mut go_on)));
-                let broken = || Fault::new("the face cannot be followed").help("please report what `lianpu track` says");
+                let broken =
+                    || Fault::new("the face cannot be followed").help("please report what `lianpu track` says");
                 let found = Box::new(found.unwrap_or_else(|_| Err(broken())));
                 reports.send(Report::Followed { root, clip, found })
             }

@@ -52,7 +52,9 @@ pub(super) fn face(buffer: &mut Buffer, area: Rect, state: &State, pictures: Pic
             let text = match (lesson_face.photo_of(desk.shot), desk.shot) {
                 (Some(_), _) => "reading the photo…".into(),
                 (None, Emotion::Neutral) => "there is no photo".into(),
-                (None, e) => format!("There is no photo of {e}: it is modelled after everybody's face. Put this face's own there as faces/{name}/{e}.png."),
+                (None, e) => format!(
+                    "There is no photo of {e}: it is modelled after everybody's face. Put this face's own there as faces/{name}/{e}.png."
+                ),
             };
             for (line, y) in folded(&text, layout.photo.width).iter().zip(layout.photo.y + 1..layout.photo.bottom()) {
                 put(buffer, layout.photo.x, y, layout.photo.width, line, DIM);
@@ -128,7 +130,9 @@ fn words(buffer: &mut Buffer, area: Rect, state: &State, desk: &FaceDesk) {
         y += 1;
     }
     let of_calibration = match file {
-        Some(_) if desk.is_stale => vec!["the points were changed since the face was calibrated: C does that again".into()],
+        Some(_) if desk.is_stale => {
+            vec!["the points were changed since the face was calibrated: C does that again".into()]
+        }
         Some(file) => calibrating::remarks(file),
         None if lesson_face.shots.iter().any(|s| s.photo.is_some()) => {
             vec!["this face was never calibrated: C does that, for its own emotions and for tracking videos".into()]
