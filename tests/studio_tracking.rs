@@ -30,7 +30,11 @@ fn copied(photos: &[&str], frames: &[Vec<u8>]) -> tempfile::TempDir {
     }
     let (photo, sum) = Photo::read_with_sum(&face.join("neutral.png")).unwrap();
     std::fs::write(face.join("face.toml"), create(&photo, &sum, None, None).unwrap().face.to_toml()).unwrap();
-    if !frames.is_empty() {
+    if frames.is_empty() {
+        for name in ["script.txt", "speech.wav"] {
+            std::fs::copy(Path::new(XIYANG).join("clips/xiyang").join(name), clip.join(name)).unwrap();
+        }
+    } else {
         std::fs::create_dir(clip.join("frames")).unwrap();
         for (i, bytes) in frames.iter().enumerate() {
             std::fs::write(clip.join(format!("frames/{i:04}.jpg")), bytes).unwrap();
