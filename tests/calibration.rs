@@ -358,7 +358,7 @@ fn followed() {
         for ((g, points), e) in shots.iter().zip(EMOTIONS) {
             let placed = points
                 .iter()
-                .map(|p| lianpu::face::Placed { at: *p, confidence: 1.0, how: lianpu::face::How::Hand })
+                .map(|p| Placed { at: *p, confidence: 1.0, how: How::Hand })
                 .collect();
             inputs = inputs.with(e, g, if marked { placed } else { Vec::new() }).unwrap();
         }
