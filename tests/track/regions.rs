@@ -1,7 +1,11 @@
 //! The region tracker beside the model's.
 
 use super::*;
+use lianpu::emotion::TrackRow;
 use lianpu::track::by_regions;
+
+/// One number of a row of tracks.
+type Pick<'a> = &'a dyn Fn(&TrackRow) -> f64;
 
 /// Pearson's correlation.
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
@@ -25,9 +29,8 @@ fn regions_follow_eyes_and_mouth_much_as_the_model_does() {
         std::fs::write(Path::new(&out).join("regions.csv"), regions.tracks.to_csv()).unwrap();
         std::fs::write(Path::new(&out).join("regions_ratios.csv"), regions.record.to_csv()).unwrap();
     }
-    let of =
-        |t: &Tracked, f: &dyn Fn(&lianpu::emotion::TrackRow) -> f64| t.tracks.rows.iter().map(f).collect::<Vec<f64>>();
-    let pairs: [(&str, &dyn Fn(&lianpu::emotion::TrackRow) -> f64); 8] = [
+    let of = |t: &Tracked, f: Pick| t.tracks.rows.iter().map(f).collect::<Vec<f64>>();
+    let pairs: [(&str, Pick); 8] = [
         ("lids", &|r| 0.5 * (r.lids.left + r.lids.right)),
         ("mouth opening", &|r| r.mouth.up + r.mouth.down),
         ("mouth width", &|r| r.mouth.left + r.mouth.right),
