@@ -25,6 +25,9 @@ pub struct Args {
     /// Only ratios from 0 on: the nearest mix without a negative one.
     #[arg(long)]
     non_negative: bool,
+    /// Ratios of the whole shape, as the paper has them: speech and blinks are read as emotion too.
+    #[arg(long)]
+    plain: bool,
     /// A ratios.csv that was not made by following a face gives way too.
     #[arg(long, requires = "project")]
     replace: bool,
@@ -43,7 +46,7 @@ pub struct Args {
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let options = Options {
         choice: if args.non_negative { Choice::NonNegative } else { Choice::Paper },
-        ..Options::default()
+        plain: args.plain,
     };
     match (&args.live, &args.model, &args.project) {
         (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options, out),

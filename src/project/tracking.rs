@@ -86,7 +86,7 @@ impl TrackJob {
     /// # Errors
     /// When the calibration or a frame cannot be read, or it was stopped.
     pub fn run(&self, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Followed> {
-        let (kept, mut notes) = calibration(&self.face_folder)?;
+        let (kept, notes) = calibration(&self.face_folder)?;
         let checksum = checksum(&self.source, &kept, self.method, &self.options)?;
         let made = &kept.made;
         let tracked = match self.method {
@@ -100,7 +100,6 @@ impl TrackJob {
                 track::by_regions(&self.source, face, Some(&made.calibration), &self.options, go_on)?
             }
         };
-        notes.extend(kept.made.quality.notes);
         Ok(Followed { tracked, checksum, notes })
     }
 }
@@ -113,7 +112,11 @@ fn calibration(folder: &std::path::Path) -> Result<(Kept, Vec<String>)> {
             let note = "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
             Ok((Kept::make(folder)?, vec![note.into()]))
         }
-        None => Ok((Kept::make(folder)?, Vec::new())),
+        None => {
+            let kept = Kept::make(folder)?;
+            let notes = kept.made.quality.notes.clone();
+            Ok((kept, notes))
+        }
     }
 }
 

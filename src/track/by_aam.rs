@@ -74,7 +74,11 @@ impl<'m> Watcher<'m> {
     pub fn see(&mut self, grey: &Grey) -> Option<Seen> {
         let fit = self.follower.next(grey)?;
         let Fit { points, confidence, .. } = fit;
-        let reading = self.calibration.read(points, self.options.choice)?;
+        let reading = if self.options.plain {
+            self.calibration.read(points, self.options.choice)?
+        } else {
+            self.calibration.read_apart(points, self.options.choice)?
+        };
         let measures = self.neutral.measure(points)?;
         let (mut sum, mut count) = (Vec2::ZERO, 0.0);
         let turn = measures.roll.to_radians();

@@ -41,6 +41,8 @@ pub struct Tracked {
 pub struct Options {
     /// Which of the solutions of eq. 6.
     pub choice: Choice,
+    /// Eq. 6 as the paper has it; else ratios are told apart from speech, blinks, glances and turns.
+    pub plain: bool,
 }
 
 /// Is told how many frames are done, of how many where that is known, and says whether to go on.

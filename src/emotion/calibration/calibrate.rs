@@ -10,6 +10,7 @@ use super::spread::Spread;
 use super::{Calibration, Shape, Source};
 use crate::aam::{Grey, Model, Similarity};
 use crate::disk::{Fault, Result};
+use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{FeaturePoint as P, How, Part, Placed};
 use crate::geometry::{Point, Vec2};
@@ -37,6 +38,8 @@ pub(super) struct Ground {
     /// The model's points in that frame.
     pub points: Vec<Point>,
     pub moves: Moves,
+    /// How named points hang on the model's.
+    pub binding: Binding,
     pub spread: Spread,
 }
 
@@ -55,7 +58,7 @@ impl Ground {
         let points: Vec<Point> = first.points.iter().map(|p| frame.undo(p.at)).collect();
         let moves = Moves::of(&named);
         let spread = Spread::new(&inputs.binding, &points, &named);
-        Ok(Self { frame, named, points, moves, spread })
+        Ok(Self { frame, named, points, moves, binding: inputs.binding.clone(), spread })
     }
 
     /// The model's points when the named ones have moved so, in the frame of the neutral pupils.
