@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use super::frames_done::FramesDone;
 use super::{live, output_fault};
 use crate::disk::{Fault, Result};
-use crate::emotion::Choice;
 use crate::project::{Lesson, Method, TrackJob, counted};
 use crate::track::Options;
 
@@ -22,12 +21,10 @@ pub struct Args {
     /// By the person's active appearance model, or by regions of eyes and mouth.
     #[arg(long, value_enum, default_value_t, value_name = "HOW")]
     by: Method,
-    /// Only ratios from 0 on: the nearest mix without a negative one.
+    /// Ratios as the paper has them: of the whole face, so that speech and blinks are read as emotion too, and some are
+    /// negative. Without it they are the nearest mix from 0 on, told apart from what the face does besides.
     #[arg(long)]
-    non_negative: bool,
-    /// Ratios of the whole shape, as the paper has them: speech and blinks are read as emotion too.
-    #[arg(long)]
-    plain: bool,
+    paper: bool,
     /// A ratios.csv that was not made by following a face gives way too.
     #[arg(long, requires = "project")]
     replace: bool,
@@ -44,10 +41,7 @@ pub struct Args {
 /// # Errors
 /// When a file cannot be read or written, or no face is found in a video.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
-    let options = Options {
-        choice: if args.non_negative { Choice::NonNegative } else { Choice::Paper },
-        plain: args.plain,
-    };
+    let options = if args.paper { Options::PAPER } else { Options::default() };
     match (&args.live, &args.model, &args.project) {
         (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options, out),
         (Some(input), ..) => Err(Fault::new(format!("`--live {}` is none", input.display()))
@@ -76,7 +70,7 @@ fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write
     let mut failed: Option<Fault> = None;
     for number in wanted(&lesson, chosen, args, options)? {
         let name = lesson.clips[number].entry.name.clone();
-        let job = TrackJob::of(&lesson, number, args.by, options.clone())?;
+        let job = TrackJob::of(&lesson, number, args.by, *options)?;
         let bar = FramesDone::new(&name);
         let found = job.run(&mut |done, of| bar.show(done, of));
         drop(bar);
