@@ -356,10 +356,7 @@ fn followed() {
             .map(|n| load(&calibration, n, "pts"))
             .collect();
         for ((g, points), e) in shots.iter().zip(EMOTIONS) {
-            let placed = points
-                .iter()
-                .map(|p| Placed { at: *p, confidence: 1.0, how: How::Hand })
-                .collect();
+            let placed = points.iter().map(|p| Placed { at: *p, confidence: 1.0, how: How::Hand }).collect();
             inputs = inputs.with(e, g, if marked { placed } else { Vec::new() }).unwrap();
         }
         let before = std::time::Instant::now();

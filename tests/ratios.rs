@@ -214,7 +214,8 @@ fn tracked_frames_give_the_known_mix() {
 #[test]
 fn a_lesson_s_video_tells_the_known_mix_from_photos_alone() {
     let known = frames();
-    let found = Record::parse(&std::fs::read_to_string(here("projects/xiyang/clips/xiyang/ratios.csv")).unwrap()).unwrap();
+    let found =
+        Record::parse(&std::fs::read_to_string(here("projects/xiyang/clips/xiyang/ratios.csv")).unwrap()).unwrap();
     let read: Vec<Ratios> = found.rows.iter().map(|r| r.ratios).collect();
     assert_eq!(read.len(), known.len());
     let [open, blink, speaking] = by_stretch(&known, &read);

@@ -106,7 +106,9 @@ pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
         match found {
             Ok(found) => {
                 lesson.take_tracked(number, found.tracked, found.checksum);
-                eprintln!("note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found");
+                eprintln!(
+                    "note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found"
+                );
             }
             Err(fault) => eprintln!("note: the face in the video of clip {name} was not followed: {fault}"),
         }
@@ -131,7 +133,8 @@ fn wanted(lesson: &Lesson, chosen: Option<usize>, args: &Args, options: &Options
         }
         let own = clip.record.is_some() && clip.score.tracked.is_none();
         if own && !args.replace {
-            let text = format!("clip {name} has ratios of its own, which stay; `--replace` puts the video's in their place");
+            let text =
+                format!("clip {name} has ratios of its own, which stay; `--replace` puts the video's in their place");
             eprintln!("note: {text}");
         } else if chosen.is_some() || own || lesson.is_tracked_anew(number, args.by, options)? {
             wanted.push(number);

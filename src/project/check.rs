@@ -153,7 +153,11 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     let lost = clip.lost();
     if let Some(first) = lost.first() {
         let places = counted(lost.len(), "place");
-        found.push(odd(format!("{places} of its video to look at, the first at {:.2} s: {}", first.start, clip.told(first))));
+        found.push(odd(format!(
+            "{places} of its video to look at, the first at {:.2} s: {}",
+            first.start,
+            clip.told(first)
+        )));
     }
     if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
         found.push(odd("there is sound and no script, so the mouth stays shut".into()));

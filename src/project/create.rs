@@ -3,10 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::clip::SOUNDS;
 use super::brought::{Brought, copy_video, frame_of, write_face};
-use super::video::FRAMES_FPS;
+use super::clip::SOUNDS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
+use super::video::FRAMES_FPS;
 use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::{Kept, Quality, import};
@@ -116,8 +116,11 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
     check_inputs(new)?;
     // Before a folder is made: a photo in which no face is found leaves nothing behind.
     let face = neutral(new)?;
-    let shots =
-        new.shots.iter().map(|(e, path)| Ok((*e, Brought::read(path)?))).collect::<Result<Vec<(Emotion, Brought)>>>()?;
+    let shots = new
+        .shots
+        .iter()
+        .map(|(e, path)| Ok((*e, Brought::read(path)?)))
+        .collect::<Result<Vec<(Emotion, Brought)>>>()?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")

@@ -121,7 +121,9 @@ impl Clip {
             Concern::NotHeard => format!("{name} is not heard"),
             Concern::NotInScript => format!("{:.2} s are not in the script", doubt.end - doubt.start),
             Concern::FaceLost => format!("no face for {:.2} s: bridged", doubt.end - doubt.start),
-            Concern::FaceUnsure => format!("the face is followed unsurely for {:.2} s: {sure:.0} %", doubt.end - doubt.start),
+            Concern::FaceUnsure => {
+                format!("the face is followed unsurely for {:.2} s: {sure:.0} %", doubt.end - doubt.start)
+            }
         }
     }
 

@@ -62,7 +62,8 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                     !stop.load(Ordering::Relaxed)
                 };
                 let found = catch_unwind(AssertUnwindSafe(|| job.run(&mut go_on)));
-                let broken = || Fault::new("the face cannot be followed").help("please report what `lianpu track` says");
+                let broken =
+                    || Fault::new("the face cannot be followed").help("please report what `lianpu track` says");
                 let found = Box::new(found.unwrap_or_else(|_| Err(broken())));
                 reports.send(Report::Followed { root, clip, found })
             }

@@ -92,11 +92,8 @@ impl Kept {
         }
         put(MODEL.into(), &self.made.model.to_bytes())?;
         let Calibrated { calibration, quality, .. } = &self.made;
-        let file = CalibrationFile {
-            calibration: calibration.clone(),
-            quality: quality.clone(),
-            inputs: self.inputs.clone(),
-        };
+        let file =
+            CalibrationFile { calibration: calibration.clone(), quality: quality.clone(), inputs: self.inputs.clone() };
         put(CALIBRATION.into(), file.to_toml()?.as_bytes())?;
         Ok(written)
     }

@@ -19,10 +19,10 @@ mod spread;
 mod warped;
 
 pub use calibrate::{Calibrated, calibrate};
-pub use kept::{CALIBRATION, Kept};
 pub use file::CalibrationFile;
 pub use files::ShotFiles;
 pub use inputs::{Inputs, ShotInput};
+pub use kept::{CALIBRATION, Kept};
 pub use marks::Marks;
 pub use quality::{Quality, Retake, ShotQuality};
 

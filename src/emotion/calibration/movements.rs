@@ -21,9 +21,8 @@ impl Calibration {
         list.extend([moves.lids(0.0, 0.0), moves.lids(0.0, 1.0), moves.lids(1.0, 0.0)]);
         list.extend([moves.gaze(0.5, 0.0), moves.gaze(0.0, 0.4)]);
         list.extend([moves.head(TURN, 0.0), moves.head(0.0, TURN)]);
-        let shape = |by: &Vec<Vec2>| -> Vec<Point> {
-            neutral.iter().zip(spread.over(by)).map(|(p, by)| *p + by).collect()
-        };
+        let shape =
+            |by: &Vec<Vec2>| -> Vec<Point> { neutral.iter().zip(spread.over(by)).map(|(p, by)| *p + by).collect() };
         list.iter().map(shape).collect()
     }
 }

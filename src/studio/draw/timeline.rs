@@ -8,8 +8,8 @@ use super::{
     BOLD, DIM, Layout, bars, cells, curves, head, keyrows, lists, phones, put, said, sound, spectrum, tap, tone,
 };
 use crate::studio::Lane;
-use crate::studio::photo_picture;
 use crate::studio::editor::Editor;
+use crate::studio::photo_picture;
 use crate::studio::picture::FacePicture;
 use crate::studio::state::State;
 use crate::timeline::Track;
@@ -20,7 +20,11 @@ pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face
     let following = state.following.as_ref().map(|f| format!("{}   {standing}", f.told()));
     let standing = if let Some(following) = following {
         following
-    } else if state.aligning.is_some() { format!("aligning…   {standing}") } else { standing.to_owned() };
+    } else if state.aligning.is_some() {
+        format!("aligning…   {standing}")
+    } else {
+        standing.to_owned()
+    };
     head(buffer, layout.area, &[&lesson.manifest.title, &clip.entry.name], &standing, style);
     face.put(buffer, layout.face);
     if let Some(photo) = state.footage.picture(editor.clip).filter(|_| layout.video.width > 0) {
