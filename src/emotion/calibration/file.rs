@@ -131,7 +131,7 @@ impl CalibrationFile {
             };
             let point = FeaturePoint::named(name).ok_or_else(|| fault("there is no feature point"))?;
             let whole: f64 = sum.iter().map(|s| s.1).sum();
-            if sum.is_empty() || sum.iter().any(|(i, _)| *i >= n) || !((whole - 1.0).abs() < 1e-6) {
+            if sum.is_empty() || sum.iter().any(|(i, _)| *i >= n) || !(1.0 - 1e-6..1.0 + 1e-6).contains(&whole) {
                 return Err(fault("the shares do not sum to 1 over points that there are:"));
             }
             rows.push((point, sum.clone()));
