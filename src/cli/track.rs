@@ -70,9 +70,9 @@ fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write
     let mut failed: Option<Fault> = None;
     for number in wanted(&lesson, chosen, args, options)? {
         let name = lesson.clips[number].entry.name.clone();
-        let job = TrackJob::of(&lesson, number, args.by, *options)?;
         let bar = FramesDone::new(&name);
-        let found = job.run(&mut |done, of| bar.show(done, of));
+        let job = TrackJob::of(&lesson, number, args.by, *options);
+        let found = job.and_then(|job| job.run(&mut |done, of| bar.show(done, of)));
         drop(bar);
         match found {
             Ok(found) => {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::execute::Job;
+use super::job::Job;
 use super::state::State;
 use crate::disk::Result;
 use crate::photo::Photo;
@@ -161,6 +161,11 @@ pub(super) fn show(state: &mut State) -> Option<Job> {
     }
     state.footage.shown = !state.footage.shown;
     missing(state)
+}
+
+/// Forgets the video of the clip that was on the desk; whether videos are shown stays.
+pub(super) fn forget(state: &mut State) {
+    state.footage = Footage { shown: state.footage.shown, ..Footage::default() };
 }
 
 /// The job that reads the frame at the cursor, where it is shown and not there yet.
