@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::execute::save;
-use super::job::Job;
 use super::face_edits;
+use super::job::Job;
 use super::state::State;
 use crate::disk::Result;
 use crate::emotion::{CalibrationFile, Kept, Source};
@@ -96,12 +96,10 @@ pub(super) fn told(file: &CalibrationFile, shot: Emotion) -> String {
     let source = file.calibration.shapes()[shot.index()].source;
     let quality = file.quality.shots.iter().find(|s| s.emotion == shot);
     let (residual, strength) = quality.map_or((0.0, 0.0), |q| (q.residual, q.strength));
-    let moved = format!("moves by {strength:.1} % of the pupil distance");
+    let moved = format!("moves {strength:.1} % of the pupil distance");
     match source {
-        Source::Marked => format!("set by hand; {moved}, the model misses by {residual:.1} %"),
-        Source::Found(sure) => {
-            format!("found, {:.0} % sure; {moved}, the model misses by {residual:.1} %", 100.0 * sure)
-        }
+        Source::Marked => format!("set by hand; {moved}; residual {residual:.1} %"),
+        Source::Found(sure) => format!("found, {:.0} % sure; {moved}; residual {residual:.1} %", 100.0 * sure),
         Source::Modelled => format!("modelled after everybody's face; {moved}"),
     }
 }

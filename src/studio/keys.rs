@@ -195,7 +195,7 @@ pub const TABLE: &[Row] = &[
         "",
         "the same by letters: 10 pixels",
     ),
-    row(&[Facing], &[("]", Shot(1)), ("[", Shot(-1))], "shot", "next, previous shot: neutral, then the six emotions"),
+    row(&[Facing], &[("[", Shot(-1)), ("]", Shot(1))], "shot", "previous, next shot: neutral, then the six emotions"),
     row(&[Facing], &[("Tab", Point(1)), ("Shift-Tab", Point(-1))], "point", "next, previous point"),
     row(&[Facing], &[("g", GoTo), ("/", GoTo)], "go to", "go to a point by its name"),
     row(&[Facing], &[("b", Both)], "both", "move both sides of the face, or one"),
