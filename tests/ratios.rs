@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use lianpu::aam::{Fitter, Grey, Kind, Model, Options, Start};
 use lianpu::emotion::{self, Binding, Calibration, Choice, Kept, Record, Shape};
-use lianpu::track::{Source, by_aam};
 use lianpu::face::FeaturePoint;
 use lianpu::geometry::{Point, Vec2};
 use lianpu::pose::{Emotion, Ratios};
+use lianpu::track::{Source, by_aam};
 
 /// Numbers that look random and are the same each time (`splitmix64`).
 struct Chance(u64);

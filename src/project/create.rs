@@ -227,11 +227,15 @@ fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>)
             Ok(followed) => {
                 notes.extend(followed.notes);
                 notes.extend(followed.tracked.notes.iter().cloned());
-                lesson.take_tracked(number, followed.tracked, followed.checksum);
+                lesson.take_tracked(number, followed.tracked, &followed.checksum);
                 lesson.clips[number].footage_changed = true;
                 lesson.clips[number].save()?;
             }
-            Err(fault) => notes.push(format!("the face in its video could not be followed: {fault}")),
+            Err(fault) => notes.push(format!(
+                "the face in its video could not be followed: {}: {}; then `lianpu track`",
+                fault.what(),
+                fault.next_step()
+            )),
         }
     }
     Ok(notes)

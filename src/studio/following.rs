@@ -127,7 +127,7 @@ pub(super) fn found(state: &mut State, root: &Path, clip: usize, found: Result<F
         }
     };
     let Some(lesson) = state.lesson() else { return };
-    let change = lesson.tracked(clip, &followed.tracked, followed.checksum.clone());
+    let change = lesson.tracked(clip, &followed.tracked, &followed.checksum);
     let is_new = change.is_some();
     if let Some(change) = change
         && !super::edits::change(state, change)

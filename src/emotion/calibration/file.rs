@@ -92,7 +92,13 @@ impl CalibrationFile {
     /// # Errors
     /// When it is damaged, of another format, or its numbers cannot be, with the line.
     pub fn parse(text: &str) -> Result<Self> {
-        let table: Table = from_toml(text)?;
+        let table: Table = from_toml(text).map_err(|fault| {
+            let told = Fault::new(fault.what()).help(AGAIN);
+            match fault.line_number() {
+                Some(line) => told.line(line),
+                None => told,
+            }
+        })?;
         let line = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map_or(1, |l| l + 1);
         if table.format != FORMAT {
             return Err(Fault::new(format!("format {} is not known to this version", table.format))
@@ -164,7 +170,6 @@ impl CalibrationFile {
     pub fn read(path: &Path) -> Result<Self> {
         Self::parse(&read_text(path)?).map_err(|fault| fault.at(path))
     }
-
 }
 
 const AGAIN: &str = "run `lianpu calibrate` again";

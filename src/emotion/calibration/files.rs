@@ -135,7 +135,8 @@ impl ShotFiles {
                 let text = read_text(&path)?;
                 let marks = Marks::parse(&text).map_err(|f| f.at(&path))?;
                 // Points of another photo, one that has been retaken since, say nothing of this one.
-                let photo = files.photos[i].as_ref().and_then(|p| p.file_name()).map(|n| n.to_string_lossy().into_owned());
+                let photo =
+                    files.photos[i].as_ref().and_then(|p| p.file_name()).map(|n| n.to_string_lossy().into_owned());
                 if photo.is_none_or(|name| files.sums.get(&name) != Some(&marks.photo)) {
                     continue;
                 }
