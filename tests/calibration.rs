@@ -221,7 +221,7 @@ fn each_marked_shot_returns_its_own_emotion_and_the_file_keeps_all() {
     assert!(q.condition.is_finite() && q.condition > 1.0);
     assert!(q.shots[1..].iter().all(|s| s.confidence == 1.0 && s.strength > 1.0 && s.residual < 3.0), "{:?}", q.shots);
     let inputs = [("neutral.png".to_owned(), "0a".repeat(32))].into();
-    let file = CalibrationFile { calibration: made.calibration, quality: made.quality, inputs };
+    let file = CalibrationFile { calibration: made.calibration, quality: made.quality, model: "ab".repeat(32), inputs };
     let text = file.to_toml().unwrap();
     let again = CalibrationFile::parse(&text).unwrap();
     assert_eq!(again.to_toml().unwrap(), text);
@@ -356,10 +356,7 @@ fn followed() {
             .map(|n| load(&calibration, n, "pts"))
             .collect();
         for ((g, points), e) in shots.iter().zip(EMOTIONS) {
-            let placed = points
-                .iter()
-                .map(|p| lianpu::face::Placed { at: *p, confidence: 1.0, how: lianpu::face::How::Hand })
-                .collect();
+            let placed = points.iter().map(|p| Placed { at: *p, confidence: 1.0, how: How::Hand }).collect();
             inputs = inputs.with(e, g, if marked { placed } else { Vec::new() }).unwrap();
         }
         let before = std::time::Instant::now();

@@ -63,6 +63,7 @@ fn in_words(made: &Calibrated) -> Vec<String> {
     let mut lines = vec![format!("{:<10} {:<22} {:>8} {:>8}", "shot", "points", "residual", "strength")];
     for ((emotion, shape), shot) in Emotion::ALL.iter().zip(made.calibration.shapes()).zip(&quality.shots) {
         let how = match shape.source {
+            Source::Marked if *emotion == Emotion::Neutral => "given".to_owned(),
             Source::Marked => "marked by hand".to_owned(),
             Source::Found(sure) => format!("found, {:.0} % sure", 100.0 * sure),
             Source::Modelled => "no shot: modelled".to_owned(),

@@ -100,7 +100,9 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
     match crate::emotion::Kept::read(folder)? {
         Some(kept) => Ok(kept.made.calibration),
-        None => Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that")),
+        None => {
+            Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that"))
+        }
     }
 }
 

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use super::frames_done::FramesDone;
 use super::{live, output_fault};
 use crate::disk::{Fault, Result};
-use crate::emotion::Choice;
 use crate::project::{Lesson, Method, TrackJob, counted};
 use crate::track::Options;
 
@@ -22,9 +21,10 @@ pub struct Args {
     /// By the person's active appearance model, or by regions of eyes and mouth.
     #[arg(long, value_enum, default_value_t, value_name = "HOW")]
     by: Method,
-    /// Only ratios from 0 on: the nearest mix without a negative one.
+    /// Ratios as the paper has them: of the whole face, so that speech and blinks are read as emotion too, and some are
+    /// negative. Without it they are the nearest mix from 0 on, told apart from what the face does besides.
     #[arg(long)]
-    non_negative: bool,
+    paper: bool,
     /// A ratios.csv that was not made by following a face gives way too.
     #[arg(long, requires = "project")]
     replace: bool,
@@ -41,14 +41,11 @@ pub struct Args {
 /// # Errors
 /// When a file cannot be read or written, or no face is found in a video.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
-    let options = Options {
-        choice: if args.non_negative { Choice::NonNegative } else { Choice::Paper },
-        ..Options::default()
-    };
+    let options = if args.paper { Options::PAPER } else { Options::default() };
     match (&args.live, &args.model, &args.project) {
         (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options, out),
         (Some(input), ..) => Err(Fault::new(format!("`--live {}` is none", input.display()))
-            .help("frames come on standard input: `ffmpeg -i VIDEO -f yuv4mpegpipe - | lianpu track --live - --model PROJECT`")
+            .help("frames come on standard input: `ffmpeg -nostdin -v error -i VIDEO -f yuv4mpegpipe - | lianpu track --live - --model PROJECT`")
             .of_the_call()),
         (None, _, Some(project)) => in_lesson(project, args, &options, out),
         // The parser asks for one of them.
@@ -73,16 +70,16 @@ fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write
     let mut failed: Option<Fault> = None;
     for number in wanted(&lesson, chosen, args, options)? {
         let name = lesson.clips[number].entry.name.clone();
-        let job = TrackJob::of(&lesson, number, args.by, options.clone())?;
         let bar = FramesDone::new(&name);
-        let found = job.run(&mut |done, of| bar.show(done, of));
+        let job = TrackJob::of(&lesson, number, args.by, *options);
+        let found = job.and_then(|job| job.run(&mut |done, of| bar.show(done, of)));
         drop(bar);
         match found {
             Ok(found) => {
                 for note in found.notes.iter().chain(&found.tracked.notes) {
                     eprintln!("note: clip {name}: {note}");
                 }
-                if let Some(change) = lesson.tracked(number, &found.tracked, found.checksum) {
+                if let Some(change) = lesson.tracked(number, &found.tracked, &found.checksum) {
                     lesson.change(change)?;
                     lesson.save()?;
                 }
@@ -108,8 +105,10 @@ pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
         drop(bar);
         match found {
             Ok(found) => {
-                lesson.take_tracked(number, found.tracked, found.checksum);
-                eprintln!("note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found");
+                lesson.take_tracked(number, found.tracked, &found.checksum);
+                eprintln!(
+                    "note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found"
+                );
             }
             Err(fault) => eprintln!("note: the face in the video of clip {name} was not followed: {fault}"),
         }
@@ -134,7 +133,8 @@ fn wanted(lesson: &Lesson, chosen: Option<usize>, args: &Args, options: &Options
         }
         let own = clip.record.is_some() && clip.score.tracked.is_none();
         if own && !args.replace {
-            let text = format!("clip {name} has ratios of its own, which stay; `--replace` puts the video's in their place");
+            let text =
+                format!("clip {name} has ratios of its own, which stay; `--replace` puts the video's in their place");
             eprintln!("note: {text}");
         } else if chosen.is_some() || own || lesson.is_tracked_anew(number, args.by, options)? {
             wanted.push(number);

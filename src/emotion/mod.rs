@@ -19,8 +19,8 @@ mod tracks;
 pub use binding::Binding;
 pub use bridge::{bridge_record, bridge_tracks};
 pub use calibration::{
-    CALIBRATION, Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles, ShotInput,
-    ShotQuality, Source, calibrate, sum_of_face, sum_of_marks,
+    CALIBRATION, Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles,
+    ShotInput, ShotQuality, Source, calibrate, sum_of_face, sum_of_marks,
 };
 pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};

@@ -34,8 +34,8 @@ pub use ranges::{Feature, Features};
 pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, sha256};
 pub use refine::Refined;
 pub use regions::{Neighbours, Region, Regions};
-pub use strip::without_metadata;
 pub use stages::{Located, STAGES_SIDE, Stages};
+pub use strip::without_metadata;
 pub use threshold::{FaceGround, LightDark, mean_deviation, moment_preserving};
 pub use write::to_clean_png;
 

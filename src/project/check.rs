@@ -127,6 +127,10 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
 fn of_shots(face: &LessonFace) -> Option<Finding> {
     let name = &face.entry.name;
     let shots = counted(face.shots.iter().filter(|s| s.photo.is_some()).count(), "photo");
+    if let Some(what) = &face.damage {
+        let what = format!("its calibration.toml cannot be read ({what})");
+        return Some(Finding::Odd(format!("face {name}: {what}; `lianpu calibrate` makes it anew")));
+    }
     let Some(file) = &face.calibration else {
         let any = face.shots.iter().any(|s| s.photo.is_some());
         return any.then(|| {

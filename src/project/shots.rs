@@ -149,11 +149,7 @@ impl LessonFace {
     /// Writes a new calibration and takes it over. The points of the shots must have been saved.
     pub(super) fn take_calibration(&mut self, kept: &Kept) -> Result<()> {
         kept.write(&self.folder)?;
-        self.calibration = Some(Box::new(CalibrationFile {
-            calibration: kept.made.calibration.clone(),
-            quality: kept.made.quality.clone(),
-            inputs: kept.inputs.clone(),
-        }));
+        self.calibration = Some(Box::new(kept.file()));
         Ok(())
     }
 }

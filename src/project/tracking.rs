@@ -86,7 +86,7 @@ impl TrackJob {
     /// # Errors
     /// When the calibration or a frame cannot be read, or it was stopped.
     pub fn run(&self, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Followed> {
-        let (kept, mut notes) = calibration(&self.face_folder)?;
+        let (kept, notes) = calibration(&self.face_folder)?;
         let checksum = checksum(&self.source, &kept, self.method, &self.options)?;
         let made = &kept.made;
         let tracked = match self.method {
@@ -100,7 +100,6 @@ impl TrackJob {
                 track::by_regions(&self.source, face, Some(&made.calibration), &self.options, go_on)?
             }
         };
-        notes.extend(kept.made.quality.notes);
         Ok(Followed { tracked, checksum, notes })
     }
 }
@@ -113,7 +112,11 @@ fn calibration(folder: &std::path::Path) -> Result<(Kept, Vec<String>)> {
             let note = "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
             Ok((Kept::make(folder)?, vec![note.into()]))
         }
-        None => Ok((Kept::make(folder)?, Vec::new())),
+        None => {
+            let kept = Kept::make(folder)?;
+            let notes = kept.made.quality.notes.clone();
+            Ok((kept, notes))
+        }
     }
 }
 
@@ -147,7 +150,7 @@ impl Clip {
     /// Whether the face in its video is still to be followed.
     #[must_use]
     pub fn wants_tracking(&self) -> bool {
-        self.video.is_some() && (self.record.is_none() || self.tracks.is_none()) && self.score.tracked.is_none()
+        self.video.is_some() && self.record.is_none() && self.score.tracked.is_none()
     }
 }
 
@@ -163,7 +166,11 @@ impl Lesson {
             return Ok(clip.wants_tracking());
         };
         let folder = self.manifest.face_of(&clip.entry).map(|f| self.root.join("faces").join(&f.name));
-        let Some(kept) = folder.map(|f| Kept::read(&f)).transpose()?.flatten() else { return Ok(false) };
-        Ok(checksum(&source, &kept, method, options)? != *before)
+        let Some(folder) = folder else { return Ok(false) };
+        // What is not kept, or is of other shots, is calibrated anew: nobody knows what comes of that.
+        match Kept::read(&folder)? {
+            Some(kept) if kept.is_of(&folder) => Ok(!before.starts_with(&checksum(&source, &kept, method, options)?)),
+            _ => Ok(true),
+        }
     }
 }

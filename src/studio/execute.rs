@@ -196,6 +196,7 @@ fn go(state: &mut State, by: Action) {
             state.face = None;
             state.editor = None;
             state.open = None;
+            state.footage = Default::default();
         }
     }
 }

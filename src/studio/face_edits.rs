@@ -3,8 +3,8 @@
 
 use super::action::Action;
 use super::calibrating;
-use super::job::Job;
 use super::face_desk::{FaceDesk, Placing, mirrored};
+use super::job::Job;
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;

@@ -127,7 +127,7 @@ pub(super) fn found(state: &mut State, root: &Path, clip: usize, found: Result<F
         }
     };
     let Some(lesson) = state.lesson() else { return };
-    let change = lesson.tracked(clip, &followed.tracked, followed.checksum.clone());
+    let change = lesson.tracked(clip, &followed.tracked, &followed.checksum);
     let is_new = change.is_some();
     if let Some(change) = change
         && !super::edits::change(state, change)
@@ -154,7 +154,7 @@ pub(super) fn found(state: &mut State, root: &Path, clip: usize, found: Result<F
 
 /// Shows the video beside the drawing, or not.
 pub(super) fn show(state: &mut State) -> Option<Job> {
-    let Some(clip) = state.clip() else { return None };
+    let clip = state.clip()?;
     if clip.video.is_none() {
         state.refuse("this clip has no video");
         return None;

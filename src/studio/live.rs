@@ -83,7 +83,8 @@ fn read(input: impl Read, to: &Sender<Arrived>, room: &Receiver<()>) {
             Err(fault) => Arrived::End(Some(fault)),
         };
         let ends = matches!(next, Arrived::End(_));
-        if !ends && room.recv().is_err() || to.send(next).is_err() || ends {
+        let is_room = ends || room.recv().is_ok();
+        if !is_room || to.send(next).is_err() || ends {
             return;
         }
     }

@@ -9,8 +9,8 @@ use std::thread;
 use crossbeam_channel::Sender;
 
 use super::aligning::Aligner;
-use super::job::Job;
 use super::export::Exporter;
+use super::job::Job;
 use super::listening::Tone;
 use super::studio::{Listening, Report};
 use crate::aam::Annotation;

@@ -67,14 +67,18 @@ impl<'m> Watcher<'m> {
                 .help("calibrate the face anew, so that they belong together"));
         }
         let neutral = Neutral::of(calibration)?;
-        Ok(Self { follower: Follower::new(model, calibration), calibration, neutral, options: options.clone() })
+        Ok(Self { follower: Follower::new(model, calibration), calibration, neutral, options: *options })
     }
 
     /// What is seen of the face in the next frame; none where it is lost.
     pub fn see(&mut self, grey: &Grey) -> Option<Seen> {
         let fit = self.follower.next(grey)?;
         let Fit { points, confidence, .. } = fit;
-        let reading = self.calibration.read(points, self.options.choice)?;
+        let reading = if self.options.apart {
+            self.calibration.read_apart(points, self.options.choice)?
+        } else {
+            self.calibration.read(points, self.options.choice)?
+        };
         let measures = self.neutral.measure(points)?;
         let (mut sum, mut count) = (Vec2::ZERO, 0.0);
         let turn = measures.roll.to_radians();

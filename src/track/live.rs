@@ -31,7 +31,13 @@ impl<'m> Live<'m> {
     /// # Errors
     /// When model and calibration do not belong together.
     pub fn new(model: &'m Model, calibration: &'m Calibration, options: &Options) -> Result<Self> {
-        Ok(Self { watcher: Watcher::new(model, calibration, options)?, rest: None, looked: 0.0, last: None, steady: Steady::new(SMOOTH_WIDTH) })
+        Ok(Self {
+            watcher: Watcher::new(model, calibration, options)?,
+            rest: None,
+            looked: 0.0,
+            last: None,
+            steady: Steady::new(SMOOTH_WIDTH),
+        })
     }
 
     /// What the next frame shows.

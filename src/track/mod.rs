@@ -36,11 +36,25 @@ pub struct Tracked {
     pub notes: Vec<String>,
 }
 
-/// How a video is tracked.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+/// How ratios are read from shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// Which of the solutions of eq. 6.
     pub choice: Choice,
+    /// Whether ratios are told apart from speech, blinks, glances and turns of the head.
+    pub apart: bool,
+}
+
+impl Options {
+    /// Eq. 6 as the paper has it: whole shapes, negative ratios kept.
+    pub const PAPER: Self = Self { choice: Choice::Paper, apart: false };
+}
+
+impl Default for Options {
+    /// What comes nearest to known ratios: mixes without negative ratios, told apart from other movements.
+    fn default() -> Self {
+        Self { choice: Choice::NonNegative, apart: true }
+    }
 }
 
 /// Is told how many frames are done, of how many where that is known, and says whether to go on.

@@ -92,13 +92,25 @@ fn a_talking_man_is_tracked_without_loss_closely_steadily_and_with_his_blinks() 
     let blinks = dips(&fitted, 0.5);
     let kept: Vec<f64> = blinks
         .iter()
-        .map(|(from, to, _)| lids[from.saturating_sub(1)..=(to + 1).min(lids.len() - 1)].iter().copied().fold(9.0, f64::min))
+        .map(|(from, to, _)| {
+            lids[from.saturating_sub(1)..=(to + 1).min(lids.len() - 1)].iter().copied().fold(9.0, f64::min)
+        })
         .collect();
-    println!("blinks: {} in the fit, {} in the other tracker's points, {} in the track", blinks.len(), dips(&seen, 0.5).len(), dips(&lids, 0.5).len());
+    println!(
+        "blinks: {} in the fit, {} in the other tracker's points, {} in the track",
+        blinks.len(),
+        dips(&seen, 0.5).len(),
+        dips(&lids, 0.5).len()
+    );
     println!("  fit {:.2?}\n  track {kept:.2?}", blinks.iter().map(|b| b.2).collect::<Vec<_>>());
     // Closures of the mouth.
     let lips = opening(&raw, 1);
     let gap: Vec<f64> = tracked.tracks.rows.iter().map(|r| r.mouth.up + r.mouth.down).collect();
     println!("mouth: gap of the fit {:.3?}, of the track {:.3?}", quantiles(&lips), quantiles(&gap));
+    // A blink that the fit has is one in the track, and about as deep.
+    let shallow = blinks.iter().zip(&kept).filter(|(b, kept)| **kept > b.2 + 0.12).count();
+    assert!(blinks.len() >= 10 && shallow == 0, "{shallow} of {} blinks are cut", blinks.len());
+    let shut = lips.iter().zip(&gap).filter(|(lips, gap)| **lips < 0.01 && **gap > 0.15).count();
+    println!("  {shut} frames with closed lips come out open");
+    assert!(shut <= 6);
 }
-

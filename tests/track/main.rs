@@ -93,4 +93,3 @@ fn shifted(grey: &Grey, by: isize) -> Grey {
     let (w, photo) = (grey.width() as isize, grey.pixels());
     pixels(grey, |x, y| photo[(y * w + (x - by).clamp(0, w - 1)) as usize])
 }
-

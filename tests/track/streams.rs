@@ -16,7 +16,16 @@ fn stream(head: &str, size: usize, frames: usize) -> Vec<u8> {
 #[test]
 fn every_kind_of_stream_is_read_and_its_greys_are_the_same() {
     let mut greys = Vec::new();
-    for (kind, size) in [("C420jpeg", 36), ("C420mpeg2 Ip", 36), ("C422 A1:1", 48), ("C444 Ib", 72), ("Cmono", 24), ("C411", 40), ("C444alpha", 96), ("", 36)] {
+    for (kind, size) in [
+        ("C420jpeg", 36),
+        ("C420mpeg2 Ip", 36),
+        ("C422 A1:1", 48),
+        ("C444 Ib", 72),
+        ("Cmono", 24),
+        ("C411", 40),
+        ("C444alpha", 96),
+        ("", 36),
+    ] {
         let bytes = stream(&format!("F30000:1001 {kind}"), size, 3);
         let mut y4m = Y4m::new(&bytes[..]).unwrap();
         assert!((y4m.fps() - 29.97).abs() < 0.01 && y4m.size() == [6, 4], "{kind}");
@@ -132,7 +141,10 @@ fn a_video_comes_through_the_program_and_what_it_says_is_heard() {
     std::fs::write(&video, b"a video").unwrap();
     std::fs::write(dir.path().join("stream"), stream("F30:1 C420", 36, 7)).unwrap();
     let said = "echo '  Duration: 00:00:00.23, start: 0' >&2";
-    let play = script(dir.path(), &format!("{said}; echo \"$@\" >> \"$(dirname \"$0\")/calls\"; cat \"$(dirname \"$0\")/stream\""));
+    let play = script(
+        dir.path(),
+        &format!("{said}; echo \"$@\" >> \"$(dirname \"$0\")/calls\"; cat \"$(dirname \"$0\")/stream\""),
+    );
     let source = Source::of_video(&video, play).unwrap();
     assert_eq!((source.fps(), source.count()), (30.0, Some(7)));
     assert_eq!(source.frames().unwrap().map(Result::unwrap).count(), 7);
@@ -162,7 +174,13 @@ fn a_real_ffmpeg_reads_a_real_video() {
     }
     let source = Source::of(&clip, 0.0).unwrap();
     let frames: Vec<_> = source.frames().unwrap().map(Result::unwrap).collect();
-    println!("{} fps, {:?} frames promised, {} there, {:?} s", source.fps(), source.count(), frames.len(), source.duration());
+    println!(
+        "{} fps, {:?} frames promised, {} there, {:?} s",
+        source.fps(),
+        source.count(),
+        frames.len(),
+        source.duration()
+    );
     assert!((74..=76).contains(&frames.len()) && source.fps() == 25.0);
     let [w, h] = [frames[0].grey.width(), frames[0].grey.height()];
     for n in [0, 10, 40] {

@@ -10,6 +10,7 @@ use super::spread::Spread;
 use super::{Calibration, Shape, Source};
 use crate::aam::{Grey, Model, Similarity};
 use crate::disk::{Fault, Result};
+use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{FeaturePoint as P, How, Part, Placed};
 use crate::geometry::{Point, Vec2};
@@ -37,6 +38,8 @@ pub(super) struct Ground {
     /// The model's points in that frame.
     pub points: Vec<Point>,
     pub moves: Moves,
+    /// How named points hang on the model's.
+    pub binding: Binding,
     pub spread: Spread,
 }
 
@@ -46,7 +49,7 @@ impl Ground {
         let missing = || Fault::new("the pupils of the neutral photo are not known").help("set 3.6 and 3.5");
         let (left, right) = (at(P::P3_6).ok_or_else(missing)?, at(P::P3_5).ok_or_else(missing)?);
         let across = right - left;
-        if !(across.hypot() > 1.0) {
+        if across.hypot().is_nan() || across.hypot() <= 1.0 {
             return Err(Fault::new("the pupils of the neutral photo coincide").help("set 3.6 and 3.5 anew"));
         }
         let frame = Similarity { a: across.x, b: across.y, at: left.midpoint(right) };
@@ -55,7 +58,7 @@ impl Ground {
         let points: Vec<Point> = first.points.iter().map(|p| frame.undo(p.at)).collect();
         let moves = Moves::of(&named);
         let spread = Spread::new(&inputs.binding, &points, &named);
-        Ok(Self { frame, named, points, moves, spread })
+        Ok(Self { frame, named, points, moves, binding: inputs.binding.clone(), spread })
     }
 
     /// The model's points when the named ones have moved so, in the frame of the neutral pupils.
@@ -160,7 +163,7 @@ pub fn calibrate(inputs: &Inputs) -> Result<Calibrated> {
             }
         }
     }
-    finish(inputs, &ground, known, refused)
+    finish(inputs, &ground, known, &refused)
 }
 
 /// A shot whose points are found; why not, where there is no face to be seen. None where there is no shot.
@@ -231,7 +234,7 @@ fn finish(
     inputs: &Inputs,
     ground: &Ground,
     known: [Option<Known>; 7],
-    refused: [Option<String>; 7],
+    refused: &[Option<String>; 7],
 ) -> Result<Calibrated> {
     let shapes: [Shape; 7] = std::array::from_fn(|i| match &known[i] {
         Some(shot) => Shape {
@@ -242,7 +245,7 @@ fn finish(
     });
     let calibration = Calibration::new(shapes, inputs.binding.clone())?;
     let model = person::train(ground, &known)?;
-    let quality = Quality::of(&calibration, &known, &refused, &model);
+    let quality = Quality::of(&calibration, &known, refused, &model);
     let shots = known.map(|shot| {
         shot.map(|shot| {
             let each = shot.points.iter().zip(&shot.errors).zip(&shot.hands);

@@ -88,7 +88,7 @@ impl Flesh {
         let mut weighted = DMatrix::zeros(2 * n, k + 4);
         let mut pulls = DVector::zeros(2 * n);
         let mut inverse = Vec::with_capacity(n);
-        for i in 0..n {
+        for (i, sight) in seen.iter().enumerate().take(n) {
             let rest = self.points[i];
             let (x, y) = (2 * i, 2 * i + 1);
             all[(x, k)] = LOOSE * rest.x;
@@ -98,8 +98,8 @@ impl Flesh {
             all[(x, k + 2)] = LOOSE;
             all[(y, k + 3)] = LOOSE;
             let hand = fixed.iter().find(|(j, _)| *j == i).map(|f| laid.place.undo(f.1));
-            let to = hand.unwrap_or(laid.points[i] + seen[i].by);
-            let [a, b, d] = if hand.is_some() { [1e-6, 0.0, 1e-6] } else { seen[i].doubt };
+            let to = hand.unwrap_or(laid.points[i] + sight.by);
+            let [a, b, d] = if hand.is_some() { [1e-6, 0.0, 1e-6] } else { sight.doubt };
             let (a, d) = (a + FREE * FREE, d + FREE * FREE);
             let det = (a * d - b * b).max(1e-14);
             inverse.push([d / det, -b / det, a / det]);

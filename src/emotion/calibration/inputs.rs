@@ -53,7 +53,7 @@ impl<'a> Inputs<'a> {
             (Some(left), Some(right)) => left.distance(right),
             _ => return Err(Fault::new("the pupils of the neutral photo are not known").help(LOOK)),
         };
-        if !(pupils > 1.0) || points.len() < 3 {
+        if pupils.is_nan() || pupils <= 1.0 || points.len() < 3 {
             return Err(Fault::new("the pupils of the neutral photo coincide").help(LOOK));
         }
         let binding = Binding::by_place(points, &named, pupils);

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
 use crate::disk::{Fault, Result, write_whole};
+use crate::photo::sha256;
 use crate::pose::Emotion;
 
 /// The name of the calibration's file.
@@ -47,18 +48,29 @@ impl Kept {
         if !path.is_file() {
             return Ok(None);
         }
-        let CalibrationFile { calibration, quality, inputs } = CalibrationFile::read(&path)?;
+        let CalibrationFile { calibration, quality, model: sum, inputs, .. } = CalibrationFile::read(&path)?;
         let path = folder.join(MODEL);
         let again = "run `lianpu calibrate` again";
         if !path.is_file() {
             return Err(Fault::new("the model of this calibration is missing").at(&path).help(again));
         }
         let model = Model::read(&path)?;
-        if model.count() != calibration.binding().count() {
+        if model.count() != calibration.binding().count() || sha256(&model.to_bytes()) != sum {
             return Err(Fault::new("this model is of another calibration").at(&path).help(again));
         }
         let made = Calibrated { calibration, model, quality, shots: Default::default() };
         Ok(Some(Self { made, inputs, marks: Vec::new() }))
+    }
+
+    /// What `calibration.toml` holds of it.
+    #[must_use]
+    pub fn file(&self) -> CalibrationFile {
+        CalibrationFile {
+            calibration: self.made.calibration.clone(),
+            quality: self.made.quality.clone(),
+            model: sha256(&self.made.model.to_bytes()),
+            inputs: self.inputs.clone(),
+        }
     }
 
     /// Whether a folder's shots are still those that this was made from.
@@ -94,10 +106,7 @@ impl Kept {
             put(format!("{emotion}.toml"), marks.to_toml().as_bytes())?;
         }
         put(MODEL.into(), &self.made.model.to_bytes())?;
-        let Calibrated { calibration, quality, .. } = &self.made;
-        let file =
-            CalibrationFile { calibration: calibration.clone(), quality: quality.clone(), inputs: self.inputs.clone() };
-        put(CALIBRATION.into(), file.to_toml()?.as_bytes())?;
+        put(CALIBRATION.into(), self.file().to_toml()?.as_bytes())?;
         Ok(written)
     }
 }

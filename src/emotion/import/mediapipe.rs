@@ -139,9 +139,10 @@ fn add_shapes(seen: &mut Seen, value: &Value) {
                     }
                     // A list of faces: the first counts.
                     None => {
-                        return if list.first() == Some(entry) {
-                            add_shapes(seen, entry)
-                        };
+                        if list.first() == Some(entry) {
+                            add_shapes(seen, entry);
+                        }
+                        return;
                     }
                 }
             }

@@ -88,7 +88,8 @@ impl Eyes {
     fn grown(&self, grey: &Grey, ball: Eyeball, seeds: &[(usize, usize)], d: f64) -> Option<Eye> {
         let window = window(grey, ball.centre, d)?;
         let b = window.bounds;
-        let mask = Mask { width: b.width(), height: b.height(), bits: window.values().map(|v| v <= self.threshold).collect() };
+        let mask =
+            Mask { width: b.width(), height: b.height(), bits: window.values().map(|v| v <= self.threshold).collect() };
         let regions = Regions::of(&mask, Neighbours::Four);
         let mut hits = vec![0_usize; regions.list.len() + 1];
         for (x, y) in seeds.iter().filter(|(x, y)| b.holds(*x, *y)) {

@@ -98,9 +98,11 @@ impl Watch<'_> {
         let moves = mouth.follow(grey, &frame);
         let open: [f64; 2] = std::array::from_fn(|k| eyes.heights[k] / frame.scale() / heights[k]);
         // The eyeball against its region's box, in eye heights: the box is as wide as the opening.
-        let iris = [eyes.balls.left, eyes.balls.right].iter().zip(&eyes.boxes).zip(*heights).fold(Vec2::ZERO, |sum, ((ball, b), h)| {
-            sum + (ball.centre - b.centre()) / (h * frame.scale()) * 0.5
-        });
+        let iris = [eyes.balls.left, eyes.balls.right]
+            .iter()
+            .zip(&eyes.boxes)
+            .zip(*heights)
+            .fold(Vec2::ZERO, |sum, ((ball, b), h)| sum + (ball.centre - b.centre()) / (h * frame.scale()) * 0.5);
         let mouth = moves.map_or_else(MouthMoves::default, |m| matched(&m));
         let measures = Measures {
             place: frame.at,

@@ -68,7 +68,8 @@ impl Mouth {
 
     fn window<'g>(&self, grey: &'g Grey, eyes: &Similarity) -> Option<Window<'g>> {
         let s = self.search;
-        let corners = [(s.x0, s.y0), (s.x1, s.y0), (s.x0, s.y1), (s.x1, s.y1)].map(|(x, y)| eyes.apply(Point::new(x, y)));
+        let corners =
+            [(s.x0, s.y0), (s.x1, s.y0), (s.x0, s.y1), (s.x1, s.y1)].map(|(x, y)| eyes.apply(Point::new(x, y)));
         let low = corners.iter().fold(Point::new(f64::MAX, f64::MAX), |a, p| Point::new(a.x.min(p.x), a.y.min(p.y)));
         let high = corners.iter().fold(Point::new(f64::MIN, f64::MIN), |a, p| Point::new(a.x.max(p.x), a.y.max(p.y)));
         Window::of(grey, low, high)
