@@ -14,10 +14,10 @@ use crate::track::{Options, relay};
 /// When there is no face to follow, the stream is none or damaged, or the record cannot be written.
 pub(super) fn run(model: &Path, options: &Options, out: &mut dyn Write) -> Result<()> {
     let folder = face_folder(model)?;
-    let kept = match Kept::read(&folder)? {
-        Some(kept) => kept,
-        None => Kept::make(&folder)?,
-    };
+    let (kept, notes) = Kept::of(&folder)?;
+    for note in notes {
+        eprintln!("note: {note}");
+    }
     let input = BufReader::with_capacity(1 << 20, std::io::stdin().lock());
     let (count, lost) = relay(input, out, &kept.made.model, &kept.made.calibration, options)?;
     if lost > 0 {

@@ -39,7 +39,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Make a lesson from a recording and its script, from times, or from ratios.
+    /// Make a lesson from a photo, a recording and its script, from a video, from times, or from ratios.
     New(new::Args),
     /// Find when each syllable of a script is spoken in a recording.
     Align(align::Args),
@@ -96,14 +96,13 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
     paths.iter().flat_map(of).collect()
 }
 
-/// The calibration of a face's folder.
+/// The calibration of a face's folder as its shots are now; what there is to say of it is said.
 pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
-    match crate::emotion::Kept::read(folder)? {
-        Some(kept) => Ok(kept.made.calibration),
-        None => {
-            Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that"))
-        }
+    let (kept, notes) = crate::emotion::Kept::of(folder)?;
+    for note in notes {
+        eprintln!("note: {note}");
     }
+    Ok(kept.made.calibration)
 }
 
 /// Runs one call of the program.

@@ -28,7 +28,7 @@ pub struct Args {
     /// When it is said: TextGrid, SRT, WebVTT, CSV, JSON, labels of Audacity, CTM, HTK; or mouth shapes of Rhubarb or Moho.
     #[arg(long, value_name = "FILE")]
     timing: Option<PathBuf>,
-    /// A ratio record, ratios.csv.
+    /// Ratios: ratios.csv or .lpr, or what OpenFace, MediaPipe, ARKit or Live Link Face have written.
     #[arg(long, value_name = "FILE")]
     ratios: Option<PathBuf>,
     /// A video of whoever speaks: a file (by ffmpeg), or a folder of pictures. Its face drives the cartoon's.

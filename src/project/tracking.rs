@@ -75,7 +75,7 @@ impl TrackJob {
     /// stopped.
     pub fn run(&self, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Followed> {
         let source = Source::of(&self.video, self.fps)?;
-        let (kept, notes) = calibration(&self.face.folder)?;
+        let (kept, notes) = Kept::of(&self.face.folder)?;
         let checksum = checksum(&source, &kept, self.method, &self.options)?;
         let made = &kept.made;
         let tracked = match self.method {
@@ -91,22 +91,6 @@ impl TrackJob {
             }
         };
         Ok(Followed { tracked, checksum, notes })
-    }
-}
-
-/// The calibration of a face's folder: that of its files, or one made now, with a note where that differs.
-fn calibration(folder: &std::path::Path) -> Result<(Kept, Vec<String>)> {
-    match Kept::read(folder)? {
-        Some(kept) if kept.is_of(folder) => Ok((kept, Vec::new())),
-        Some(_) => {
-            let note = "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
-            Ok((Kept::make(folder)?, vec![note.into()]))
-        }
-        None => {
-            let kept = Kept::make(folder)?;
-            let notes = kept.made.quality.notes.clone();
-            Ok((kept, notes))
-        }
     }
 }
 

@@ -73,6 +73,29 @@ impl Kept {
         }
     }
 
+    /// The calibration of a face's folder as its shots are now: what is kept there, or what is made now and kept nowhere;
+    /// with what there is to say of that.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read) and [`make`](Self::make).
+    pub fn of(folder: &Path) -> Result<(Self, Vec<String>)> {
+        match Self::read(folder)? {
+            Some(kept) if kept.is_of(folder) => Ok((kept, Vec::new())),
+            // A calibration lasts, also where its photos are kept elsewhere.
+            Some(kept) if ShotFiles::of(folder).is_err() => {
+                Ok((kept, vec!["its shots are not there any more: the calibration is used as it was kept".into()]))
+            }
+            before => {
+                let made = Self::make(folder)?;
+                let note =
+                    "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
+                let mut notes: Vec<String> = before.map(|_| note.into()).into_iter().collect();
+                notes.extend(made.made.quality.notes.iter().cloned());
+                Ok((made, notes))
+            }
+        }
+    }
+
     /// Whether a folder's shots are still those that this was made from.
     #[must_use]
     pub fn is_of(&self, folder: &Path) -> bool {

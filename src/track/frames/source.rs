@@ -31,6 +31,9 @@ enum Kind {
     Video(PathBuf, Ffmpeg),
 }
 
+/// How lists of videos begin that ffmpeg would follow.
+const LISTS: [&[u8]; 3] = [b"#EXTM3U", b"ffconcat", b"[playlist"];
+
 impl Source {
     /// A folder of PNG, JPEG or WebP frames, shown `fps` a second, or a video file, which knows itself: YUV4MPEG2 is read
     /// as it is, everything else by ffmpeg. Only the folder, or the first frame of the file, is looked at.
@@ -48,6 +51,10 @@ impl Source {
         read.map_err(|e| Fault::io("cannot read the video", path, e))?;
         if magic == MAGIC {
             return Self::of_plain(path, file);
+        }
+        // A list of other files would have ffmpeg open them, wherever they lie.
+        if LISTS.iter().any(|list| magic.starts_with(&list[..list.len().min(MAGIC.len())])) {
+            return Err(Fault::new("it is a list of other videos").at(path).help("give the video itself"));
         }
         if magic.is_empty() {
             return Err(Fault::new("the video's file is empty").at(path).help("copy it again"));
