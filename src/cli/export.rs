@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::output_fault;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::export::{Format, FrameSet, Progress, Request, Shard, plan, run as run_jobs};
+use crate::export::{Dedupe, Format, FrameSet, Progress, Request, Shard, plan, run as run_jobs};
 use crate::project::Lesson;
 
 /// Write lessons as frames and subtitles. Run again, it only writes what is missing or has changed.
@@ -48,6 +48,10 @@ pub struct Args {
     /// #rrggbb, white, black or transparent.
     #[arg(long, value_name = "COLOR")]
     background: Option<Colour>,
+    /// What is done about frames that are equal: link makes them one file under several names, copy copies, none makes
+    /// each by itself.
+    #[arg(long, value_name = "link|copy|none", default_value = "link", hide_default_value = true)]
+    dedupe: Dedupe,
     /// Progress and result as lines of JSON.
     #[arg(long)]
     json: bool,
@@ -71,6 +75,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         size: args.size,
         fps: args.fps,
         background: args.background.map(|c| if c.a == 0 { None } else { Some(c) }),
+        dedupe: args.dedupe,
         jobs: args.jobs.into(),
     };
     let stop = Arc::new(AtomicBool::new(false));

@@ -5,8 +5,10 @@
 mod frames;
 mod plan;
 mod poses;
+mod repeats;
 mod run;
 
 pub use frames::{FrameSet, Shard};
 pub use plan::{Format, Job, Request, plan};
+pub use repeats::Dedupe;
 pub use run::{Progress, Report, run};

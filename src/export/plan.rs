@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::{FrameSet, Shard, poses};
+use super::{Dedupe, FrameSet, Shard, poses};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::Figure;
@@ -84,6 +84,8 @@ pub struct Request {
     pub fps: Option<f64>,
     /// Instead of the figure's background; `Some(None)` is transparent.
     pub background: Option<Option<Colour>>,
+    /// What is done about frames that are equal.
+    pub dedupe: Dedupe,
     /// Threads; 0 for as many as there are processors.
     pub jobs: usize,
 }
@@ -102,6 +104,7 @@ impl Request {
             size: None,
             fps: None,
             background: None,
+            dedupe: Dedupe::default(),
             jobs: 0,
         }
     }
@@ -126,6 +129,8 @@ pub struct Job {
     pub size: [u32; 2],
     /// Instead of the figure's background.
     pub background: Option<Option<Colour>>,
+    /// What is done about frames that are equal.
+    pub dedupe: Dedupe,
     /// Frame forms.
     pub formats: Vec<Format>,
     /// Whole files: where, and what is in them.
@@ -134,6 +139,14 @@ pub struct Job {
     pub timeline: Timeline,
     /// The figure that draws it.
     pub figure: Figure,
+}
+
+impl Job {
+    /// The file of a frame.
+    #[must_use]
+    pub fn path_of(&self, frame: u32, format: Format) -> PathBuf {
+        self.folder.join(format!("{frame:06}.{}", format.name()))
+    }
 }
 
 /// Works out the jobs of an export, one a clip. Nothing is written yet.
@@ -210,6 +223,7 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
         count,
         size: output.size,
         background: request.background,
+        dedupe: request.dedupe,
         texts,
         formats: request.formats.iter().copied().filter(|f| f.is_frames()).collect(),
         timeline,
