@@ -1,0 +1,250 @@
+//! The forms that hold a clip or a lesson whole, as one file or a few: which files there will be, and writing each of them
+//! whole or not at all. What is there and still right is kept.
+
+mod base64;
+mod ratios;
+mod shapes;
+mod smil;
+mod sound;
+mod svg_marks;
+
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::parts::{self, Parts};
+use super::plan::{checked_output, chosen_clips, out_folder};
+use super::{Format, Report, Request, said};
+use crate::disk::{Result, write_whole};
+use crate::project::{Clip, Lesson, Output};
+use crate::timing::MOHO_FPS;
+use sound::Encoded;
+
+/// Files that hold a clip or a lesson in one form, to be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Whole {
+    /// The form.
+    pub format: Format,
+    /// The clip; none where the lesson's clips are in it together.
+    pub clip: Option<String>,
+    /// The path without what the form adds to it, such as `OUT/CLIP`.
+    base: PathBuf,
+    /// The clips that are in it, by number.
+    clips: Vec<usize>,
+}
+
+/// What became of a [`Whole`].
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Its files.
+    pub paths: Vec<PathBuf>,
+    /// What the author should know, a line each.
+    pub notes: Vec<String>,
+    /// How many files were written and kept, and how many bytes.
+    pub report: Report,
+}
+
+/// A file that is ready.
+struct File {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+/// The whole files of an export, clip by clip and then the lesson's. Nothing is written yet.
+///
+/// Of an export in shards the first one writes them. `--frames` has no say in them.
+///
+/// # Errors
+/// When the clip that is asked for is not there, or size or frame rate cannot be used.
+pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
+    checked_output(lesson, request)?;
+    let clips = chosen_clips(lesson, request)?;
+    if !request.shard.is_first() {
+        return Ok(Vec::new());
+    }
+    let out = out_folder(lesson, request);
+    let wanted = |format: &&Format| !format.is_frames() && !format.is_text();
+    let formats: Vec<Format> = request.formats.iter().filter(wanted).copied().collect();
+    let mut all = Vec::new();
+    for number in &clips {
+        let name = &lesson.clips[*number].entry.name;
+        // A clip that is asked for by name has a page and a book of its own.
+        let own = |format: &&Format| !format.is_of_the_lesson() || request.clip.is_some();
+        all.extend(formats.iter().filter(own).map(|format| Whole {
+            format: *format,
+            clip: Some(name.clone()),
+            base: out.join(name),
+            clips: vec![*number],
+        }));
+    }
+    if request.clip.is_none() {
+        let together = formats.iter().filter(|f| f.is_of_the_lesson());
+        all.extend(together.map(|format| Whole {
+            format: *format,
+            clip: None,
+            base: out.join("lesson"),
+            clips: clips.clone(),
+        }));
+    }
+    Ok(all)
+}
+
+/// Writes whole files one after the other; `each` is told before each of them, with its number from 0. `stop` ends it
+/// between two.
+///
+/// # Errors
+/// When a figure cannot be used or a file cannot be written. Every file that is there is whole.
+pub fn write_wholes(
+    lesson: &Lesson,
+    request: &Request,
+    wholes: &[Whole],
+    each: &mut dyn FnMut(usize, &Whole),
+    stop: &AtomicBool,
+) -> Result<Vec<Written>> {
+    let mut workshop = Workshop::new(lesson, request)?;
+    let mut done = Vec::new();
+    for (number, whole) in wholes.iter().enumerate() {
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+        each(number, whole);
+        let mut written = Written::default();
+        for file in workshop.make(whole, &mut written.notes)? {
+            if std::fs::read(&file.path).is_ok_and(|old| old == file.bytes) {
+                written.report.kept += 1;
+            } else {
+                write_whole(&file.path, &file.bytes).map_err(|f| f.help("choose another place with --out DIR"))?;
+                written.report.written += 1;
+                written.report.bytes += file.bytes.len() as u64;
+            }
+            written.paths.push(file.path);
+        }
+        done.push(written);
+    }
+    Ok(done)
+}
+
+/// What several forms of one clip have in common, made once.
+struct Workshop<'a> {
+    lesson: &'a Lesson,
+    request: &'a Request,
+    output: Output,
+    encoder: Option<PathBuf>,
+    parts: Option<(usize, Rc<Parts>)>,
+    sounds: Vec<(usize, Rc<Encoded>)>,
+}
+
+impl<'a> Workshop<'a> {
+    fn new(lesson: &'a Lesson, request: &'a Request) -> Result<Self> {
+        let output = checked_output(lesson, request)?;
+        Ok(Self { lesson, request, output, encoder: sound::encoder(), parts: None, sounds: Vec::new() })
+    }
+
+    fn make(&mut self, whole: &Whole, notes: &mut Vec<String>) -> Result<Vec<File>> {
+        let Some(first) = whole.clips.first().copied() else { return Ok(Vec::new()) };
+        let lesson = self.lesson;
+        let clip = &lesson.clips[first];
+        let base = whole.base.as_path();
+        let one = |ending: &str, bytes: Vec<u8>| vec![File { path: with_ending(base, ending), bytes }];
+        let files = match whole.format {
+            Format::Smil => {
+                let sound = self.sound(first, notes)?;
+                let parts = self.parts(first)?;
+                let title = self.title(clip);
+                let words = smil::Words { title: &title, description: &self.description(clip) };
+                let text = if self.request.thesis {
+                    smil::of_the_thesis(&parts, &words, sound.as_deref())
+                } else {
+                    smil::animated(&parts, &words, sound.as_deref())
+                };
+                one("svg", text.into_bytes())
+            }
+            Format::Wav => match &clip.sound {
+                Some(sound) => one("wav", sound::wav(sound)?),
+                None => {
+                    notes.push(format!("the clip {} has no sound", clip.entry.name));
+                    Vec::new()
+                }
+            },
+            Format::Rhubarb => shapes::rhubarb(&self.shapes(first, notes), base),
+            Format::Moho => {
+                shapes::moho(self.shapes(first, notes), self.request.fps.unwrap_or(MOHO_FPS), base)
+            }
+            Format::Ratios => ratios::tables(clip, &lesson.timeline(first, Some(self.output.fps)), base),
+            Format::Lpr => ratios::compact(clip, &lesson.timeline(first, Some(self.output.fps)), base)?,
+            _ => Vec::new(),
+        };
+        Ok(files)
+    }
+
+    /// The clip's figure in parts.
+    fn parts(&mut self, clip: usize) -> Result<Rc<Parts>> {
+        if let Some((_, parts)) = self.parts.as_ref().filter(|(number, _)| *number == clip) {
+            return Ok(Rc::clone(parts));
+        }
+        let figure = self.lesson.figure_of(&self.lesson.clips[clip].entry)?;
+        let timeline = self.lesson.timeline(clip, Some(self.output.fps));
+        let parts = Rc::new(parts::parts(&figure, &timeline, self.output.size, self.request.background));
+        self.parts = Some((clip, Rc::clone(&parts)));
+        Ok(parts)
+    }
+
+    /// The clip's sound as small as it gets here; none where it has none.
+    fn sound(&mut self, clip: usize, notes: &mut Vec<String>) -> Result<Option<Rc<Encoded>>> {
+        if let Some((_, sound)) = self.sounds.iter().find(|(number, _)| *number == clip) {
+            return Ok(Some(Rc::clone(sound)));
+        }
+        let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
+        let (encoded, note) = sound::encoded(sound, self.encoder.as_deref())?;
+        let encoded = Rc::new(encoded);
+        notes.extend(note);
+        self.sounds.push((clip, Rc::clone(&encoded)));
+        Ok(Some(encoded))
+    }
+
+    fn shapes(&self, clip: usize, notes: &mut Vec<String>) -> crate::timing::Timing {
+        let own = &self.lesson.clips[clip];
+        let timing = shapes::shapes(own, self.output.fps, self.lesson.mouths_of(&own.entry));
+        if timing.shapes().is_none_or(|t| t.intervals.is_empty()) {
+            notes.push(format!("the clip {} says nothing, so its mouth rests all the time", own.entry.name));
+        }
+        timing
+    }
+
+    /// What a clip is called: by the lesson, and by its own name where there are several.
+    fn title(&self, clip: &Clip) -> String {
+        let title = &self.lesson.manifest.title;
+        if self.lesson.clips.len() > 1 { format!("{title}: {}", clip.entry.name) } else { title.clone() }
+    }
+
+    /// What is said, for those who cannot see or hear it.
+    fn description(&self, clip: &Clip) -> String {
+        let said: Vec<String> = said::phrases(clip).iter().map(said::Phrase::text).collect();
+        if said.is_empty() { "A face moves.".to_owned() } else { format!("A face says: {}", said.join(" ")) }
+    }
+}
+
+/// `OUT/CLIP` with an ending; a clip's name may hold points of its own.
+fn with_ending(base: &Path, ending: &str) -> PathBuf {
+    let mut name = base.file_name().unwrap_or_default().to_owned();
+    name.push(".");
+    name.push(ending);
+    base.with_file_name(name)
+}
+
+/// Text safe inside elements and quoted attributes of XML and HTML.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML has no other control characters.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => {}
+            c => out.push(c),
+        }
+    }
+    out
+}
