@@ -128,6 +128,32 @@ impl Mark {
         }
     }
 
+    /// The points that its outline is made of; of what is clipped the clip's.
+    pub(super) fn outer_points(&self) -> &[[i32; 2]] {
+        match self {
+            Self::Path { path, .. } | Self::Clip { path, .. } => &path.points,
+            _ => &[],
+        }
+    }
+
+    /// Whether it looks like another to the eye: made alike, no point further than `steps` of the grid from the other's,
+    /// no colour more than a hundredth off.
+    pub(super) fn is_near(&self, other: &Self, steps: i32) -> bool {
+        match (self, other) {
+            (Self::Path { path: a, colour: c }, Self::Path { path: b, colour: d }) => {
+                near_colours(*c, *d) && a.is_near(b, steps)
+            }
+            (
+                Self::Glow { at: a, radii: r, colour: c },
+                Self::Glow { at: b, radii: s, colour: d },
+            ) => near_colours(*c, *d) && near_points(&[*a, *r], &[*b, *s], steps),
+            (Self::Clip { path: a, inside: i }, Self::Clip { path: b, inside: j }) => {
+                a.is_near(b, steps) && are_near(i, j, steps)
+            }
+            _ => self == other,
+        }
+    }
+
     /// About how many bytes it takes to write it: what parts are weighed by.
     pub(super) fn weight(&self) -> u64 {
         match self {
@@ -142,7 +168,7 @@ impl Mark {
 
 impl Path {
     /// A path on the grid; nothing where it is empty.
-    fn of(path: &BezPath, place: Affine) -> Option<Self> {
+    pub fn of(path: &BezPath, place: Affine) -> Option<Self> {
         let mut verbs = Vec::with_capacity(path.elements().len());
         let mut points: Vec<[i32; 2]> = Vec::with_capacity(3 * path.elements().len());
         for element in path.elements() {
@@ -176,8 +202,25 @@ impl Path {
         (verbs.len() > 1).then(|| Self { verbs: verbs.into(), points: points.into() })
     }
 
+    fn is_near(&self, other: &Self, steps: i32) -> bool {
+        self.verbs == other.verbs && near_points(&self.points, &other.points, steps)
+    }
+
     fn weight(&self) -> u64 {
         (self.verbs.len() + 5 * self.points.len()) as u64
+    }
+
+    /// The path as curves of the grid.
+    pub fn to_bez(&self) -> BezPath {
+        let p = |p: &[i32; 2]| Point::new(f64::from(p[0]), f64::from(p[1]));
+        let piece = |(verb, points): (u8, &[[i32; 2]])| match (verb, points) {
+            (b'M', [a]) => PathEl::MoveTo(p(a)),
+            (b'L', [a]) => PathEl::LineTo(p(a)),
+            (b'Q', [a, b]) => PathEl::QuadTo(p(a), p(b)),
+            (b'C', [a, b, c]) => PathEl::CurveTo(p(a), p(b), p(c)),
+            _ => PathEl::ClosePath,
+        };
+        self.pieces().map(piece).collect()
     }
 
     /// The verbs with their points.
@@ -195,6 +238,21 @@ impl Path {
             (*verb, here)
         })
     }
+}
+
+/// Whether two lists of marks look alike.
+pub(super) fn are_near(a: &[Mark], b: &[Mark], steps: i32) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_near(b, steps))
+}
+
+fn near_points(a: &[[i32; 2]], b: &[[i32; 2]], steps: i32) -> bool {
+    a.len() == b.len()
+        && a.iter().zip(b).all(|(p, q)| p[0].abs_diff(q[0]).max(p[1].abs_diff(q[1])) <= steps.unsigned_abs())
+}
+
+fn near_colours(a: Colour, b: Colour) -> bool {
+    let parts = |c: Colour| [c.r, c.g, c.b, c.a];
+    parts(a).iter().zip(parts(b)).all(|(a, b)| a.abs_diff(b) <= 2)
 }
 
 fn filled(path: &BezPath, colour: Colour, place: Affine) -> Option<Mark> {

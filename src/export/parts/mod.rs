@@ -20,6 +20,13 @@ use crate::geometry::Rect;
 use crate::pose::Pose;
 use crate::timeline::Timeline;
 
+/// Looks of an item that are within so many steps of the grid of each other are one: an eighth of a pixel.
+const ONE_LOOK: i32 = 1;
+
+/// Poses of a part likewise: three eighths. Together half a pixel at most, where a curve is drawn whose edge is a pixel
+/// wide; four times as many poses would be written without it.
+const ONE_POSE: i32 = 3;
+
 /// Where the grid of the parts lies in the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
@@ -51,6 +58,8 @@ pub(super) struct Parts {
     pub frames: u32,
     /// Frames a second.
     pub fps: f64,
+    /// The box on the grid in which lips, teeth and tongue are seen, over all frames: left, top, right, bottom.
+    pub mouth: Option<[i32; 4]>,
     /// Back to front.
     pub sheets: Vec<Sheet>,
 }
@@ -95,7 +104,7 @@ pub(super) fn survey(figure: &Figure, timeline: &Timeline, grid: &Grid) -> Surve
 
 /// All items of a figure over some poses.
 pub(super) fn survey_of(figure: &Figure, poses: impl Iterator<Item = Pose>, grid: &Grid) -> Survey {
-    let mut survey = Survey::new(grid.scale);
+    let mut survey = Survey::new(grid.scale, ONE_LOOK);
     let mut last: Option<Pose> = None;
     for pose in poses {
         // The shape is a name, and not drawn.
@@ -127,6 +136,7 @@ pub(super) fn parts(
         background: background.unwrap_or(first.background),
         frames: frames as u32,
         fps: timeline.fps(),
+        mouth: mouth_box(&items),
         sheets: sheets(&items, &moves, frames),
     }
 }
@@ -145,6 +155,19 @@ pub(super) fn sheets(items: &[Tracked], moves: &[Move], frames: usize) -> Vec<Sh
         }
     }
     sheets
+}
+
+/// What of a figure is its mouth.
+const MOUTH: [&str; 4] = ["lip", "mouth", "teeth", "tongue"];
+
+fn mouth_box(items: &[Tracked]) -> Option<[i32; 4]> {
+    let own = items.iter().filter(|i| MOUTH.iter().any(|word| i.name.contains(word)));
+    let mut seen: Option<[i32; 4]> = None;
+    for [x, y] in own.flat_map(|i| i.states.iter()).flat_map(|marks| marks.iter()).flat_map(Mark::outer_points) {
+        let [a, b, c, d] = seen.unwrap_or([*x, *y, *x, *y]);
+        seen = Some([a.min(*x), b.min(*y), c.max(*x), d.max(*y)]);
+    }
+    seen
 }
 
 fn moves_of(items: &[Tracked], moves: &[Move], frames: usize) -> Vec<(u32, Move)> {
@@ -167,7 +190,7 @@ fn moves_of(items: &[Tracked], moves: &[Move], frames: usize) -> Vec<(u32, Move)
 
 fn part_of(items: &[Tracked], frames: usize, names: &mut HashMap<String, u32>) -> Part {
     let mut known: HashMap<Vec<u32>, u32> = HashMap::new();
-    let mut poses = Vec::new();
+    let mut poses: Vec<Vec<Arc<[Mark]>>> = Vec::new();
     let mut runs: Vec<(u32, u32)> = Vec::new();
     for frame in 0..frames {
         let key: Vec<u32> = items.iter().map(|i| i.at[frame]).collect();
@@ -175,9 +198,14 @@ fn part_of(items: &[Tracked], frames: usize, names: &mut HashMap<String, u32>) -
             Some(pose) => *pose,
             None => {
                 let looks = items.iter().zip(&key).filter_map(|(i, at)| i.states.get(*at as usize).cloned());
-                poses.push(looks.filter(|marks| !marks.is_empty()).collect());
-                known.insert(key, poses.len() as u32 - 1);
-                poses.len() as u32 - 1
+                let looks: Vec<Arc<[Mark]>> = looks.filter(|marks| !marks.is_empty()).collect();
+                let near = poses.iter().rposition(|old| near_poses(old, &looks));
+                let pose = near.unwrap_or(poses.len()) as u32;
+                known.insert(key, pose);
+                if near.is_none() {
+                    poses.push(looks);
+                }
+                pose
             }
         };
         if runs.last().is_none_or(|(_, last)| *last != pose) {
@@ -191,10 +219,15 @@ fn part_of(items: &[Tracked], frames: usize, names: &mut HashMap<String, u32>) -
     Part { name, poses, runs }
 }
 
+/// Whether two poses of a part look alike.
+fn near_poses(a: &[Arc<[Mark]>], b: &[Arc<[Mark]>]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| Arc::ptr_eq(a, b) || mark::are_near(a, b, ONE_POSE))
+}
+
 /// A word for what changes in a part.
 fn called(items: &[Tracked]) -> &'static str {
     const WORDS: [(&str, &[&str]); 5] = [
-        ("mouth", &["lip", "mouth", "teeth", "tongue"]),
+        ("mouth", &MOUTH),
         ("eyes", &["eye", "lid", "iris", "pupil"]),
         ("brows", &["brow"]),
         ("jaw", &["jaw", "chin", "contour", "lower", "beard", "fold"]),

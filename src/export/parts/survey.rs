@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::mark::Mark;
+use super::mark::{Mark, are_near};
 use crate::drawing::{Drawing, Item};
 use crate::geometry::Affine;
 
@@ -55,11 +55,13 @@ pub struct Survey {
     order: Vec<usize>,
     place: Vec<usize>,
     scale: f64,
+    near: i32,
 }
 
 impl Survey {
-    /// Nothing yet; `scale` is the grid's steps in a unit of the figure.
-    pub fn new(scale: f64) -> Self {
+    /// Nothing yet; `scale` is the grid's steps in a unit of the figure, and looks of an item within `near` steps of each
+    /// other are one.
+    pub fn new(scale: f64, near: i32) -> Self {
         Self {
             items: Vec::new(),
             moves: vec![Move::default()],
@@ -69,6 +71,7 @@ impl Survey {
             order: Vec::new(),
             place: Vec::new(),
             scale,
+            near,
         }
     }
 
@@ -120,9 +123,9 @@ impl Survey {
             _ => {
                 let id = self.number_of(name_of(item), *next);
                 *next = self.place[id] + 1;
-                let scale = self.scale;
+                let (scale, near) = (self.scale, self.near);
                 let tracked = &mut self.items[id];
-                let state = tracked.state_of(item, place, scale);
+                let state = tracked.state_of(item, place, scale, near);
                 if let (Some(at), Some(moves)) = (tracked.at.last_mut(), tracked.moved.last_mut()) {
                     (*at, *moves) = (state, moved);
                 }
@@ -190,7 +193,7 @@ fn name_of(item: &Item) -> &str {
 }
 
 impl Tracked {
-    fn state_of(&mut self, item: &Item, place: Affine, scale: f64) -> u32 {
+    fn state_of(&mut self, item: &Item, place: Affine, scale: f64, near: i32) -> u32 {
         if let Some((last, at, state)) = &self.last
             && *at == place
             && last == item
@@ -203,9 +206,13 @@ impl Tracked {
         let state = match self.known.get(&marks) {
             Some(state) => *state,
             None => {
-                let state = self.states.len() as u32;
+                // The latest is the likeliest.
+                let near = self.states.iter().rposition(|old| are_near(old, &marks, near));
+                let state = near.unwrap_or(self.states.len()) as u32;
                 self.known.insert(Arc::clone(&marks), state);
-                self.states.push(marks);
+                if near.is_none() {
+                    self.states.push(marks);
+                }
                 state
             }
         };

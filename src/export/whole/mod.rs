@@ -2,11 +2,15 @@
 //! whole or not at all. What is there and still right is kept.
 
 mod base64;
+mod epub;
+mod html;
+mod packed;
 mod ratios;
 mod shapes;
 mod smil;
 mod sound;
 mod svg_marks;
+mod zip;
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -17,6 +21,7 @@ use super::plan::{checked_output, chosen_clips, out_folder};
 use super::{Format, Report, Request, said};
 use crate::disk::{Result, write_whole};
 use crate::project::{Clip, Lesson, Output};
+use crate::script::System;
 use crate::timing::MOHO_FPS;
 use sound::Encoded;
 
@@ -159,6 +164,8 @@ impl<'a> Workshop<'a> {
                 };
                 one("svg", text.into_bytes())
             }
+            Format::Html => one("html", self.page(&whole.clips, notes)?.into_bytes()),
+            Format::Epub => one("epub", self.book(&whole.clips, notes)?),
             Format::Wav => match &clip.sound {
                 Some(sound) => one("wav", sound::wav(sound)?),
                 None => {
@@ -175,6 +182,70 @@ impl<'a> Workshop<'a> {
             _ => Vec::new(),
         };
         Ok(files)
+    }
+
+    /// The page of some clips.
+    fn page(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<String> {
+        let lesson = self.lesson;
+        let mut page = html::Page::default();
+        for number in clips {
+            let clip = &lesson.clips[*number];
+            let sound = self.sound(*number, notes)?;
+            let parts = self.parts(*number)?;
+            page.add(&html::Shown {
+                name: &clip.entry.name,
+                description: self.description(clip),
+                duration: clip.duration(),
+                parts: &parts,
+                sound: sound.as_deref(),
+                phrases: said::phrases(clip),
+            });
+        }
+        Ok(page.done(&lesson.manifest.title))
+    }
+
+    /// The book of some clips.
+    fn book(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<Vec<u8>> {
+        let lesson = self.lesson;
+        let mut chapters = Vec::new();
+        for number in clips {
+            let clip = &lesson.clips[*number];
+            let sound = self.sound_of_a_book(*number, notes)?;
+            let parts = self.parts(*number)?;
+            let (title, description) = (self.title(clip), self.description(clip));
+            let words = smil::Words { title: &title, description: &description };
+            let mut first = lesson.figure_of(&clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
+            first.background = self.request.background.unwrap_or(first.background);
+            chapters.push(epub::Chapter {
+                svg: smil::animated(&parts, &words, None),
+                poster: epub::poster(&first, self.output.size)?,
+                title: if lesson.clips.len() > 1 { clip.entry.name.clone() } else { title },
+                description,
+                duration: clip.duration(),
+                sound,
+                phrases: said::phrases(clip),
+                zhuyin: clip.entry.script_system == Some(System::Zhuyin),
+                size: self.output.size,
+            });
+        }
+        let figure = match clips.first() {
+            Some(first) => lesson.figure_of(&lesson.clips[*first].entry)?,
+            None => return Ok(Vec::new()),
+        };
+        epub::book(&lesson.manifest.title, &figure, &chapters)
+    }
+
+    /// A sound that readers of books must know: MP3 or AAC. Where no encoder is there, the recording itself may be such.
+    fn sound_of_a_book(&mut self, clip: usize, notes: &mut Vec<String>) -> Result<Option<Encoded>> {
+        let Some(sound) = self.sound(clip, &mut Vec::new())? else { return Ok(None) };
+        if sound.is_for_books() {
+            return Ok(Some((*sound).clone()));
+        }
+        let own = self.lesson.clips[clip].sound_path.as_deref().and_then(sound::own);
+        if own.is_none() {
+            notes.push("there is no `ffmpeg`, and books take no WAV: the book has no sound".to_owned());
+        }
+        Ok(own)
     }
 
     /// The clip's figure in parts.

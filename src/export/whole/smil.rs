@@ -26,6 +26,8 @@ pub(super) struct Words<'a> {
 pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>) -> String {
     let mut defs = Defs::default();
     let (mut poses, mut scene) = (String::new(), String::new());
+    // A letter a part: its poses are named thousands of times.
+    let mut letter = 0;
     for sheet in &parts.sheets {
         let moved = begin_moves(&mut scene, &sheet.moves, parts);
         for part in &sheet.parts {
@@ -33,15 +35,17 @@ pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>
             if part.is_still() {
                 write_marks(&mut scene, part.marks(0), &mut defs);
             } else {
-                write_poses(&mut poses, part, &mut defs);
-                write_use(&mut scene, part, parts);
+                let prefix = prefix(letter);
+                letter += 1;
+                write_poses(&mut poses, part, &prefix, &mut defs);
+                write_use(&mut scene, part, &prefix, parts);
             }
             scene.push_str("</g>\n");
         }
         scene.push_str(&"</g>".repeat(moved));
     }
     let mut out = head(parts, words);
-    let _ = write!(out, "<defs>\n{}\n{poses}</defs>\n", defs.text);
+    let _ = write!(out, "<defs>\n{poses}{}</defs>\n", defs.text);
     out.push_str(&backdrop(parts));
     let _ = write!(out, "{}{scene}</g>\n", on_grid(parts));
     out.push_str(&sound_of(parts, sound));
@@ -123,22 +127,27 @@ pub(super) fn on_grid(parts: &Parts) -> String {
     format!("<g transform=\"translate({x} {y})scale(.125)\">\n")
 }
 
-fn pose_id(part: &Part, pose: u32) -> String {
-    format!("{}{pose}", part.name)
+/// `a`, `b` … `z`, then `za`, `zb` …: none is the beginning of a number or of another part's name in a file.
+fn prefix(number: u32) -> String {
+    let letter = |n: u32| char::from(b'a' + (n % 26) as u8);
+    format!("{}{}", "z".repeat((number / 25) as usize), letter(number % 25))
 }
 
-fn write_poses(out: &mut String, part: &Part, defs: &mut Defs) {
+fn write_poses(out: &mut String, part: &Part, prefix: &str, defs: &mut Defs) {
     for pose in 0..part.poses.len() as u32 {
-        let _ = write!(out, "<g id=\"{}\">", pose_id(part, pose));
-        write_marks(out, part.marks(pose), defs);
+        let mut group = format!("<g id=\"{prefix}{pose}\">");
+        write_marks(&mut group, part.marks(pose), defs);
+        // What a pose refers to stands just before it, where a packer finds the like of it.
+        out.push_str(&std::mem::take(&mut defs.text));
+        out.push_str(&group);
         out.push_str("</g>\n");
     }
 }
 
-fn write_use(out: &mut String, part: &Part, parts: &Parts) {
+fn write_use(out: &mut String, part: &Part, prefix: &str, parts: &Parts) {
     let first = part.runs.first().map_or(0, |r| r.1);
-    let _ = write!(out, "<use href=\"#{}\"><animate attributeName=\"href\"", pose_id(part, first));
-    keys(out, &part.runs, parts, |pose| format!("#{}", pose_id(part, *pose)));
+    let _ = write!(out, "<use href=\"#{prefix}{first}\"><animate attributeName=\"href\"");
+    keys(out, &part.runs, parts, |pose| format!("#{prefix}{pose}"));
     out.push_str("/></use>");
 }
 
@@ -156,13 +165,14 @@ fn keys<T>(out: &mut String, runs: &[(u32, T)], parts: &Parts, value: impl Fn(&T
     );
 }
 
-/// When a frame begins, as a share of the whole, never later than it does: a share of an hour to 0.004 s.
+/// When a frame begins, as a share of the whole: never later than it does, and less than a tenth of a frame before.
 fn share(frame: u32, of: u32) -> String {
-    let millionths = u64::from(frame) * 1_000_000 / u64::from(of.max(1));
-    if millionths == 0 {
+    let digits = of.max(1).ilog10() as usize + 2;
+    let part = u64::from(frame) * 10_u64.pow(digits as u32) / u64::from(of.max(1));
+    if part == 0 {
         return "0".to_owned();
     }
-    format!(".{millionths:06}").trim_end_matches('0').to_owned()
+    format!(".{part:0digits$}").trim_end_matches('0').to_owned()
 }
 
 fn turn(moved: Move) -> f64 {

@@ -24,6 +24,23 @@ pub(super) struct Encoded {
     pub bytes: Vec<u8>,
 }
 
+impl Encoded {
+    /// Whether every reader of books plays it.
+    pub fn is_for_books(&self) -> bool {
+        matches!(self.extension, "mp3" | "m4a")
+    }
+}
+
+/// A recording as it came, where it is MP3 or AAC.
+pub(super) fn own(path: &Path) -> Option<Encoded> {
+    let (mime, extension) = match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "mp3" => ("audio/mpeg", "mp3"),
+        "m4a" => ("audio/mp4", "m4a"),
+        _ => return None,
+    };
+    Some(Encoded { mime, extension, bytes: std::fs::read(path).ok()? })
+}
+
 /// The WAV file of a sound: 16 bits, one channel, its own rate.
 ///
 /// # Errors

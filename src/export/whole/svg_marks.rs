@@ -6,12 +6,13 @@ use std::fmt::Write;
 use super::base64::data_uri_of;
 use crate::drawing::Colour;
 use crate::export::parts::{Mark, Path};
+use crate::geometry::Affine;
 
 /// What marks refer to, each once: clip paths and gradients.
 #[derive(Default)]
 pub(super) struct Defs {
     known: HashMap<String, usize>,
-    /// The definitions, in order.
+    /// The definitions that are not written yet, in order.
     pub text: String,
 }
 
@@ -116,8 +117,21 @@ pub(super) fn share(alpha: u8) -> String {
     }
 }
 
+/// The same path in fewer curves, no further from it than a step of the grid, where it has many.
+fn simpler(path: &Path) -> Option<Path> {
+    const MANY: usize = 6;
+    let curves = path.verbs.iter().filter(|v| **v == b'C').count();
+    if curves <= MANY {
+        return None;
+    }
+    let fewer = kurbo::simplify::simplify_bezpath(path.to_bez(), 1.0, &kurbo::simplify::SimplifyOptions::default());
+    Path::of(&fewer, Affine::IDENTITY).filter(|p| p.verbs.len() < path.verbs.len())
+}
+
 /// The data of a path, relative.
 pub(super) fn path_data(out: &mut String, path: &Path) {
+    let fewer = simpler(path);
+    let path = fewer.as_ref().unwrap_or(path);
     let (mut at, mut start) = ([0, 0], [0, 0]);
     let mut last = 0;
     for (verb, points) in path.pieces() {
