@@ -166,7 +166,8 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
     bar.finish_and_clear();
     let whole = wholes(&lesson, request)?;
     let mut tell = |_: usize, whole: &crate::export::Whole| {
-        let what = whole.clip.as_ref().map_or_else(|| whole.format.name().into(), |c| format!("{c}, {}", whole.format.name()));
+        let what =
+            whole.clip.as_ref().map_or_else(|| whole.format.name().into(), |c| format!("{c}, {}", whole.format.name()));
         if args.json {
             eprintln!("{}", serde_json::json!({ "making": whole.format.name(), "clip": whole.clip }));
         } else if std::io::stderr().is_terminal() {

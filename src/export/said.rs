@@ -86,13 +86,7 @@ pub(super) fn phrases(clip: &Clip) -> Vec<Phrase> {
         let begins = starts.get(next_start).is_some_and(|s| piece.start >= s - 1e-9);
         if begins || phrases.is_empty() {
             next_start = starts.partition_point(|s| *s <= piece.start + 1e-9);
-            phrases.push(Phrase {
-                start: piece.start,
-                end: piece.end,
-                sentence,
-                ends_line: false,
-                pieces: Vec::new(),
-            });
+            phrases.push(Phrase { start: piece.start, end: piece.end, sentence, ends_line: false, pieces: Vec::new() });
         }
         if let Some(phrase) = phrases.last_mut() {
             phrase.end = piece.end;

@@ -143,10 +143,9 @@ impl Mark {
             (Self::Path { path: a, colour: c }, Self::Path { path: b, colour: d }) => {
                 near_colours(*c, *d) && a.is_near(b, steps)
             }
-            (
-                Self::Glow { at: a, radii: r, colour: c },
-                Self::Glow { at: b, radii: s, colour: d },
-            ) => near_colours(*c, *d) && near_points(&[*a, *r], &[*b, *s], steps),
+            (Self::Glow { at: a, radii: r, colour: c }, Self::Glow { at: b, radii: s, colour: d }) => {
+                near_colours(*c, *d) && near_points(&[*a, *r], &[*b, *s], steps)
+            }
             (Self::Clip { path: a, inside: i }, Self::Clip { path: b, inside: j }) => {
                 a.is_near(b, steps) && are_near(i, j, steps)
             }

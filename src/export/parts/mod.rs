@@ -96,15 +96,14 @@ impl Part {
     }
 }
 
-/// All items of a figure over all frames of its clip.
-pub(super) fn survey(figure: &Figure, timeline: &Timeline, grid: &Grid) -> Survey {
-    let frames = (0..timeline.frames().max(1)).map(|frame| timeline.pose(timeline.time_of(frame)));
-    survey_of(figure, frames, grid)
+/// A clip's poses, frame by frame; at least one.
+pub(super) fn poses(timeline: &Timeline) -> impl Iterator<Item = Pose> + '_ {
+    (0..timeline.frames().max(1)).map(|frame| timeline.pose(timeline.time_of(frame)))
 }
 
-/// All items of a figure over some poses.
-pub(super) fn survey_of(figure: &Figure, poses: impl Iterator<Item = Pose>, grid: &Grid) -> Survey {
-    let mut survey = Survey::new(grid.scale, ONE_LOOK);
+/// All items of a figure over some poses. Looks within `near` steps of the grid of each other are one.
+pub(super) fn survey(figure: &Figure, poses: impl Iterator<Item = Pose>, grid: &Grid, near: i32) -> Survey {
+    let mut survey = Survey::new(grid.scale, near);
     let mut last: Option<Pose> = None;
     for pose in poses {
         // The shape is a name, and not drawn.
@@ -120,22 +119,27 @@ pub(super) fn survey_of(figure: &Figure, poses: impl Iterator<Item = Pose>, grid
 }
 
 /// A figure's parts over all frames of its clip. `background` is instead of the figure's own.
-pub(super) fn parts(
+pub(super) fn parts(figure: &Figure, timeline: &Timeline, size: [u32; 2], background: Option<Option<Colour>>) -> Parts {
+    Parts { fps: timeline.fps(), ..of_poses(figure, poses(timeline), size, background) }
+}
+
+/// A figure's parts over some poses, one a second.
+pub(super) fn of_poses(
     figure: &Figure,
-    timeline: &Timeline,
+    poses: impl Iterator<Item = Pose>,
     size: [u32; 2],
     background: Option<Option<Colour>>,
 ) -> Parts {
-    let first: Drawing = figure.draw(&timeline.pose(0.0));
+    let first: Drawing = figure.draw(&Pose::default());
     let grid = Grid::new(first.view, size);
-    let survey = survey(figure, timeline, &grid);
+    let survey = survey(figure, poses, &grid, ONE_LOOK);
     let frames = survey.frames;
     let (items, moves) = survey.done();
     Parts {
         grid,
         background: background.unwrap_or(first.background),
         frames: frames as u32,
-        fps: timeline.fps(),
+        fps: 1.0,
         mouth: mouth_box(&items),
         sheets: sheets(&items, &moves, frames),
     }

@@ -95,7 +95,8 @@ fn moved_of(moved: &[u32]) -> u64 {
 /// The bytes of the different poses, and of the changes from one to the next.
 fn cost(sums: &[(u64, u64)], moves: u64) -> u64 {
     let mut seen: HashMap<u64, ()> = HashMap::with_capacity(sums.len());
-    let poses: u64 = sums.iter().filter(|(key, _)| seen.insert(*key, ()).is_none()).map(|(_, weight)| weight + 20).sum();
+    let poses: u64 =
+        sums.iter().filter(|(key, _)| seen.insert(*key, ()).is_none()).map(|(_, weight)| weight + 20).sum();
     let changes = sums.windows(2).filter(|w| w[0].0 != w[1].0).count() as u64;
     PART + poses + CHANGE * (changes + moves)
 }

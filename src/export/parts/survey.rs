@@ -167,11 +167,8 @@ impl Survey {
             return None;
         }
         let whole = |v: f64| v.round().clamp(-1e8, 1e8) as i32;
-        let moved = Move {
-            x: whole(e * self.scale),
-            y: whole(f * self.scale),
-            turn: whole(b.atan2(a).to_degrees() * 1000.0),
-        };
+        let moved =
+            Move { x: whole(e * self.scale), y: whole(f * self.scale), turn: whole(b.atan2(a).to_degrees() * 1000.0) };
         let moves = &mut self.moves;
         Some(*self.known.entry(moved).or_insert_with(|| {
             moves.push(moved);

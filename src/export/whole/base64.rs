@@ -27,8 +27,7 @@ pub(super) fn data_uri(mime: &str, bytes: &[u8]) -> String {
 /// Pixels as a `data:` address of a PNG.
 pub(super) fn data_uri_of(raster: &Raster) -> String {
     let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let picture =
-        Picture { width: side(raster.width()), height: side(raster.height()), rgba: raster.rgba().to_vec() };
+    let picture = Picture { width: side(raster.width()), height: side(raster.height()), rgba: raster.rgba().to_vec() };
     // Pixels that are no picture cannot be drawn either.
     encode_png(&picture, "").map(|png| data_uri("image/png", &png)).unwrap_or_default()
 }

@@ -4,6 +4,9 @@
 mod base64;
 mod epub;
 mod html;
+mod layers;
+mod lottie;
+mod mouths;
 mod packed;
 mod ratios;
 mod shapes;
@@ -16,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::parts::{self, Parts};
+use super::parts::{self, Grid, Parts};
 use super::plan::{checked_output, chosen_clips, out_folder};
 use super::{Format, Report, Request, said};
 use crate::disk::{Result, write_whole};
@@ -174,14 +177,45 @@ impl<'a> Workshop<'a> {
                 }
             },
             Format::Rhubarb => shapes::rhubarb(&self.shapes(first, notes), base),
-            Format::Moho => {
-                shapes::moho(self.shapes(first, notes), self.request.fps.unwrap_or(MOHO_FPS), base)
-            }
+            Format::Moho => shapes::moho(self.shapes(first, notes), self.request.fps.unwrap_or(MOHO_FPS), base),
             Format::Ratios => ratios::tables(clip, &lesson.timeline(first, Some(self.output.fps)), base),
             Format::Lpr => ratios::compact(clip, &lesson.timeline(first, Some(self.output.fps)), base)?,
-            _ => Vec::new(),
+            Format::Lottie => one("json", self.lottie(first)?.into_bytes()),
+            Format::Mouths => {
+                let figure = lesson.figure_of(&clip.entry)?;
+                let preset = lesson.mouths_of(&clip.entry);
+                mouths::mouths(&figure, preset, self.output.size, self.request.background, base)?
+            }
+            Format::Layers => {
+                let figure = lesson.figure_of(&clip.entry)?;
+                let (preset, ground) = (lesson.mouths_of(&clip.entry), self.request.background);
+                let text = layers::layered(&figure, preset, self.output.size, ground, &self.title(clip));
+                one("layers.svg", text.into_bytes())
+            }
+            // Frames and times are the business of the jobs.
+            Format::Svg | Format::Png | Format::TextGrid | Format::Srt | Format::Vtt | Format::Poses => Vec::new(),
         };
         Ok(files)
+    }
+
+    fn lottie(&self, clip: usize) -> Result<String> {
+        let own = &self.lesson.clips[clip];
+        let figure = self.lesson.figure_of(&own.entry)?;
+        let timeline = self.lesson.timeline(clip, Some(self.output.fps));
+        let first = figure.draw(&timeline.pose(0.0));
+        let grid = Grid::new(first.view, self.output.size);
+        let survey = parts::survey(&figure, parts::poses(&timeline), &grid, lottie::ONE_LOOK);
+        let frames = survey.frames;
+        let (items, moves) = survey.done();
+        Ok(lottie::lottie(&lottie::Film {
+            title: &self.title(own),
+            grid,
+            fps: self.output.fps,
+            background: self.request.background.unwrap_or(first.background),
+            items: &items,
+            moves: &moves,
+            frames,
+        }))
     }
 
     /// The page of some clips.

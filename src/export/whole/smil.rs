@@ -116,7 +116,12 @@ fn head(parts: &Parts, words: &Words<'_>) -> String {
 
 pub(super) fn backdrop(parts: &Parts) -> String {
     match parts.background {
-        Some(colour) => format!("<path fill=\"{}\" d=\"M0 0h{}v{}H0z\"/>\n", svg_marks::short(colour), parts.grid.size[0], parts.grid.size[1]),
+        Some(colour) => format!(
+            "<path fill=\"{}\" d=\"M0 0h{}v{}H0z\"/>\n",
+            svg_marks::short(colour),
+            parts.grid.size[0],
+            parts.grid.size[1]
+        ),
         None => String::new(),
     }
 }

@@ -106,7 +106,8 @@ fn mp3(sound: &Sound, program: &Path) -> Result<Vec<u8>> {
         .output()
         .map_err(|e| Fault::io("cannot run it", program, e))?;
     let said = String::from_utf8_lossy(&ran.stderr);
-    let failed = || Fault::new(format!("ffmpeg failed: {}", said.lines().next().unwrap_or("it says nothing")));
+    let why = said.lines().next().map_or_else(|| ran.status.to_string(), str::to_owned);
+    let failed = || Fault::new(format!("ffmpeg failed: {why}"));
     if !ran.status.success() {
         return Err(failed());
     }

@@ -30,11 +30,16 @@ pub(super) fn text(chapter: &Chapter, n: usize, language: &str) -> String {
         escaped(&chapter.title)
     );
     if let Some(sound) = &chapter.sound {
-        let _ = writeln!(out, "<audio id=\"sound\" src=\"clip-{n}.{}\" controls=\"controls\"></audio>", sound.extension);
+        let _ =
+            writeln!(out, "<audio id=\"sound\" src=\"clip-{n}.{}\" controls=\"controls\"></audio>", sound.extension);
     }
     out.push_str("</figure>\n");
     let (mut sentence, mut number) = (None, 0);
-    let end = |out: &mut String, open: bool| if open { out.push_str("</p>\n") };
+    let end = |out: &mut String, open: bool| {
+        if open {
+            out.push_str("</p>\n")
+        }
+    };
     for phrase in &chapter.phrases {
         if sentence != Some(phrase.sentence) {
             end(&mut out, sentence.is_some());
