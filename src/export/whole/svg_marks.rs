@@ -21,7 +21,7 @@ impl Defs {
     fn id(&mut self, body: String) -> String {
         let next = self.known.len();
         let number = *self.known.entry(body.clone()).or_insert(next);
-        let id = format!("d{number}");
+        let id = format!("D{number}");
         if number == next {
             self.text.push_str(&body.replacen('#', &id, 1));
         }
@@ -42,7 +42,7 @@ pub(super) fn write_marks<'a>(out: &mut String, marks: impl Iterator<Item = &'a 
             }
             Mark::Glow { at, radii, colour } => {
                 let id = defs.id(format!(
-                    "<radialGradient id=\"#\"><stop stop-color=\"{0}\" stop-opacity=\"{1}\"/><stop offset=\"1\" \
+                    "<radialGradient id=\"#\"><stop offset=\"0\" stop-color=\"{0}\" stop-opacity=\"{1}\"/><stop offset=\"1\" \
                      stop-color=\"{0}\" stop-opacity=\"0\"/></radialGradient>",
                     colour.hex(),
                     share(colour.a)
