@@ -36,8 +36,8 @@ fn lesson() -> (tempfile::TempDir, Lesson) {
         ratios.push_str(&format!("{frame},{},{},{happy},0,0,0,0,0,1\n", f64::from(frame) * 0.04, 1.0 - happy));
     }
     std::fs::write(root.join("clips/moods/ratios.csv"), ratios).unwrap();
-    let score = "[[key]]\ntrack = \"head\"\ntime = 0.0\nvalue = { x = 0.0, y = 0.0, roll = 0.0 }\n\n\
-                 [[key]]\ntrack = \"head\"\ntime = 0.8\nvalue = { x = 0.1, y = 0.05, roll = 8.0 }\n";
+    let score = "[[key]]\ntrack = \"head\"\ntime = 0.0\nvalue = [0.0, 0.0, 0.0]\n\n\
+                 [[key]]\ntrack = \"head\"\ntime = 0.8\nvalue = [0.1, 0.05, 8.0]\n";
     std::fs::write(root.join("clips/moods/score.toml"), score).unwrap();
     let manifest = format!(
         "format = 1\ntitle = \"{TITLE}\"\n\n[[face]]\nname = \"teacher\"\nfigure = \"cartoon\"\n\n\

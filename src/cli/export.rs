@@ -12,7 +12,7 @@ use super::output_fault;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::export::{
-    Format, FrameSet, Progress, Report, Request, Shard, Written, plan, run as run_jobs, wholes, write_wholes,
+    Format, FrameSet, Progress, Request, Shard, Written, plan, run as run_jobs, wholes, write_wholes,
 };
 use crate::project::Lesson;
 
@@ -176,7 +176,8 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
     };
     let made = write_wholes(&lesson, request, &whole, &mut tell, stop)?;
     report.stopped |= made.len() < whole.len();
-    add(&mut report, &made);
+    tell_notes(&made);
+    report = report.with(&made);
     if report.stopped {
         return Err(
             Fault::new("the export was stopped before its end").help("run it again: it goes on where it stopped")
@@ -214,18 +215,13 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
     Ok(())
 }
 
-/// Counts whole files in, and tells what there is to know of them, each thing once.
-fn add(report: &mut Report, made: &[Written]) {
+/// Tells what there is to know of whole files, each thing once.
+fn tell_notes(made: &[Written]) {
     let mut told: Vec<&String> = Vec::new();
-    for written in made {
-        report.written += written.report.written;
-        report.kept += written.report.kept;
-        report.bytes += written.report.bytes;
-        for note in &written.notes {
-            if !told.contains(&note) {
-                eprintln!("note: {note}");
-                told.push(note);
-            }
+    for note in made.iter().flat_map(|w| &w.notes) {
+        if !told.contains(&note) {
+            eprintln!("note: {note}");
+            told.push(note);
         }
     }
 }

@@ -4,6 +4,7 @@
 //! moves apart.
 
 use std::collections::HashMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use super::mark::{Mark, are_near};
@@ -35,7 +36,9 @@ pub struct Tracked {
     pub at: Vec<u32>,
     /// Which move of [`Survey::moves`] it has in each frame; [`ABSENT`] where it is not there.
     pub moved: Vec<u32>,
-    known: HashMap<Arc<[Mark]>, u32>,
+    /// Looks that were met, by a sum of theirs, and the state that each was taken for: the looks themselves would fill
+    /// the memory over an hour.
+    known: HashMap<u64, u32>,
     /// The item as it was last, the place of its group, and its state: most do not change from frame to frame.
     last: Option<(Item, Affine, u32)>,
 }
@@ -199,16 +202,20 @@ impl Tracked {
         }
         let mut marks = Vec::with_capacity(1);
         Mark::of(item, Affine::scale(scale) * place, &mut marks);
-        let marks: Arc<[Mark]> = marks.into();
-        let state = match self.known.get(&marks) {
-            Some(state) => *state,
+        let mut sum = DefaultHasher::new();
+        marks.hash(&mut sum);
+        let sum = sum.finish();
+        let is = |state: u32| self.states.get(state as usize).is_some_and(|old| are_near(old, &marks, near));
+        // Sums of different looks may be the same, once in a very long while.
+        let state = match self.known.get(&sum).copied().filter(|state| is(*state)) {
+            Some(state) => state,
             None => {
                 // The latest is the likeliest.
-                let near = self.states.iter().rposition(|old| are_near(old, &marks, near));
-                let state = near.unwrap_or(self.states.len()) as u32;
-                self.known.insert(Arc::clone(&marks), state);
-                if near.is_none() {
-                    self.states.push(marks);
+                let met = self.states.iter().rposition(|old| are_near(old, &marks, near));
+                let state = met.unwrap_or(self.states.len()) as u32;
+                self.known.insert(sum, state);
+                if met.is_none() {
+                    self.states.push(marks.into());
                 }
                 state
             }

@@ -42,7 +42,7 @@ pub(super) fn layered(
     );
     let ground = smil::backdrop(&parts);
     if !ground.is_empty() {
-        let _ = write!(out, "{}{ground}</g>\n", begin("ground", "ground", true));
+        let _ = writeln!(out, "{}{ground}</g>", begin("ground", "ground", true));
     }
     let mut defs = Defs::default();
     for part in parts.sheets.iter().flat_map(|s| &s.parts) {
@@ -62,7 +62,7 @@ pub(super) fn layered(
             }
         }
         if !defs.text.is_empty() {
-            let _ = write!(out, "<defs>{}</defs>\n", std::mem::take(&mut defs.text));
+            let _ = writeln!(out, "<defs>{}</defs>", std::mem::take(&mut defs.text));
         }
         out.push_str(&layer);
         out.push_str("</g>\n");

@@ -52,6 +52,19 @@ pub struct Written {
     pub report: Report,
 }
 
+impl Report {
+    /// The same with whole files counted in.
+    #[must_use]
+    pub fn with(mut self, made: &[Written]) -> Self {
+        for written in made {
+            self.written += written.report.written;
+            self.kept += written.report.kept;
+            self.bytes += written.report.bytes;
+        }
+        self
+    }
+}
+
 /// A file that is ready.
 struct File {
     path: PathBuf,

@@ -47,7 +47,7 @@ pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>
     let mut out = head(parts, words);
     let _ = write!(out, "<defs>\n{poses}{}</defs>\n", defs.text);
     out.push_str(&backdrop(parts));
-    let _ = write!(out, "{}{scene}</g>\n", on_grid(parts));
+    let _ = writeln!(out, "{}{scene}</g>", on_grid(parts));
     out.push_str(&sound_of(parts, sound));
     out.push_str("</svg>\n");
     out

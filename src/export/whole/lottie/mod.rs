@@ -41,7 +41,7 @@ pub(super) fn lottie(film: &Film<'_>) -> String {
     let mut assets = Vec::new();
     if let Some(colour) = film.background {
         layers.push(format!(
-            "\"ty\":1,\"nm\":\"ground\",\"sw\":{width},\"sh\":{height},\"sc\":\"{}\",\"ks\":{{}}",
+            "\"ty\":1,\"nm\":\"ground\",\"sw\":{width},\"sh\":{height},\"sc\":\"{}\",\"ks\":{{\"o\":{{\"a\":0,\"k\":100}},\"r\":{{\"a\":0,\"k\":0}},\"p\":{{\"a\":0,\"k\":[0,0,0]}},\"a\":{{\"a\":0,\"k\":[0,0,0]}},\"s\":{{\"a\":0,\"k\":[100,100,100]}}}}",
             colour.hex()
         ));
     }
@@ -129,7 +129,7 @@ fn placed(item: &Tracked, film: &Film<'_>) -> String {
     let turn = |m: &Move| format!("[{}]", f64::from(m.turn) / 1000.0);
     let place = keyed(&keys.iter().map(|(t, m)| (*t, at(m))).collect::<Vec<_>>());
     let turn = keyed(&keys.iter().map(|(t, m)| (*t, turn(m))).collect::<Vec<_>>());
-    format!("{{\"o\":{{\"a\":0,\"k\":100}},\"p\":{place},\"r\":{turn},\"s\":{{\"a\":0,\"k\":[12.5,12.5,100]}}}}")
+    format!("{{\"o\":{{\"a\":0,\"k\":100}},\"a\":{{\"a\":0,\"k\":[0,0,0]}},\"p\":{place},\"r\":{turn},\"s\":{{\"a\":0,\"k\":[12.5,12.5,100]}}}}")
 }
 
 /// A property whose values, each an array in JSON, are held from key to key; keys that change nothing are left out.
@@ -144,16 +144,14 @@ fn keyed(keys: &[(u32, String)]) -> String {
         }
     }
     match (count, last) {
-        (0, _) | (_, None) => "{\"a\":0,\"k\":[0]}".to_owned(),
+        (0, _) | (_, None) => "{\"a\":0,\"k\":0}".to_owned(),
         (1, Some(value)) => format!("{{\"a\":0,\"k\":{}}}", alone(value)),
         _ => format!("{{\"a\":1,\"k\":[{text}]}}"),
     }
 }
 
-/// A value that never changes: a shape stands for itself, not in an array.
+/// A value that never changes: a shape and a single number stand for themselves, not in an array.
 fn alone(value: &str) -> &str {
-    match value.strip_prefix("[{") {
-        Some(_) => &value[1..value.len() - 1],
-        None => value,
-    }
+    let inner = value.strip_prefix('[').and_then(|v| v.strip_suffix(']')).unwrap_or(value);
+    if inner.starts_with('{') || !inner.contains(',') { inner } else { value }
 }
