@@ -61,6 +61,12 @@ impl Shard {
     /// Everything.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
 
+    /// Whether it is the one that writes what is not divided.
+    #[must_use]
+    pub const fn is_first(self) -> bool {
+        self.index == 1
+    }
+
     /// This shard's part of a list: neighbouring items, so that what repeats from frame to frame stays together.
     #[must_use]
     pub fn of<T: Copy>(self, list: &[T]) -> Vec<T> {
