@@ -8,6 +8,8 @@ mod completions;
 mod convert;
 mod export;
 mod face;
+mod farm;
+mod merge;
 mod new;
 mod play;
 mod plot;
@@ -43,6 +45,10 @@ enum Command {
     Check(check::Args),
     /// Write lessons as frames and subtitles.
     Export(export::Args),
+    /// Join the parts of an export that was divided among machines.
+    Merge(merge::Args),
+    /// Print the job that exports lessons on many machines.
+    Farm(farm::Args),
     /// Find the points of a face in its photo, for its cartoon.
     Face(face::Args),
     /// Train, fit and look at active appearance models of faces.
@@ -98,6 +104,8 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::Align(args)) => align::run(args, out),
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
+        Some(Command::Merge(args)) => merge::run(args, out),
+        Some(Command::Farm(args)) => farm::run(args, out),
         Some(Command::Face(args)) => face::run(args, out),
         Some(Command::Aam(args)) => aam::run(args, out),
         Some(Command::Play(args)) => play::run(args),
