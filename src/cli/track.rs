@@ -45,7 +45,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     match (&args.live, &args.model, &args.project) {
         (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options, out),
         (Some(input), ..) => Err(Fault::new(format!("`--live {}` is none", input.display()))
-            .help("frames come on standard input: `ffmpeg -i VIDEO -f yuv4mpegpipe - | lianpu track --live - --model PROJECT`")
+            .help("frames come on standard input: `ffmpeg -nostdin -v error -i VIDEO -f yuv4mpegpipe - | lianpu track --live - --model PROJECT`")
             .of_the_call()),
         (None, _, Some(project)) => in_lesson(project, args, &options, out),
         // The parser asks for one of them.
@@ -70,16 +70,16 @@ fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write
     let mut failed: Option<Fault> = None;
     for number in wanted(&lesson, chosen, args, options)? {
         let name = lesson.clips[number].entry.name.clone();
-        let job = TrackJob::of(&lesson, number, args.by, *options)?;
         let bar = FramesDone::new(&name);
-        let found = job.run(&mut |done, of| bar.show(done, of));
+        let job = TrackJob::of(&lesson, number, args.by, *options);
+        let found = job.and_then(|job| job.run(&mut |done, of| bar.show(done, of)));
         drop(bar);
         match found {
             Ok(found) => {
                 for note in found.notes.iter().chain(&found.tracked.notes) {
                     eprintln!("note: clip {name}: {note}");
                 }
-                if let Some(change) = lesson.tracked(number, &found.tracked, found.checksum) {
+                if let Some(change) = lesson.tracked(number, &found.tracked, &found.checksum) {
                     lesson.change(change)?;
                     lesson.save()?;
                 }
@@ -105,7 +105,7 @@ pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
         drop(bar);
         match found {
             Ok(found) => {
-                lesson.take_tracked(number, found.tracked, found.checksum);
+                lesson.take_tracked(number, found.tracked, &found.checksum);
                 eprintln!(
                     "note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found"
                 );

@@ -20,7 +20,7 @@ pub use binding::Binding;
 pub use bridge::{bridge_record, bridge_tracks};
 pub use calibration::{
     CALIBRATION, Calibrated, Calibration, CalibrationFile, Inputs, Kept, Marks, Quality, Retake, Shape, ShotFiles,
-    ShotInput, ShotQuality, Source, calibrate,
+    ShotInput, ShotQuality, Source, calibrate, sum_of_face, sum_of_marks,
 };
 pub use decompose::{Choice, Decomposition, Reading};
 pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};

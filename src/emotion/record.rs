@@ -78,8 +78,8 @@ impl Record {
         Ok(Self { rows: lines.iter().map(row).collect::<Result<_>>()? })
     }
 
-    /// The record as `ratios.csv`. Times have at most 6 decimals, ratios at most 9; the neutral ratio is the one that
-    /// eq. 6 leaves free, so it takes up what rounding leaves and every row sums to 1 as printed.
+    /// The record as `ratios.csv`. Times have at most 6 decimals, ratios at most 9; the largest takes up what
+    /// rounding leaves, so that every row sums to 1 as printed.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = COLUMNS.join(",");
@@ -167,7 +167,9 @@ impl Record {
 /// The printed values of a row, in the order of the columns.
 fn cells(row: &Row) -> [String; 10] {
     let mut units = row.ratios.0.map(|ratio| (ratio * UNIT).round() as i64);
-    units[0] = UNIT as i64 - units[1..].iter().sum::<i64>();
+    // The largest takes up what rounding leaves.
+    let largest = (0..7).max_by_key(|i| units[*i]).unwrap_or(0);
+    units[largest] += UNIT as i64 - units.iter().sum::<i64>();
     let mut cells: [String; 10] = std::array::from_fn(|_| String::new());
     cells[0] = row.frame.to_string();
     cells[1] = decimal(row.time, 6);

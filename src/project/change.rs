@@ -5,11 +5,14 @@ use serde::{Deserialize, Serialize};
 use super::doubts::CONFIDENCE;
 use super::footage::Footage;
 use super::said::Said;
+use super::shots::near_the_photo;
 use super::times::OWN_TIERS;
 use super::{Clip, LessonFace};
 use crate::disk::{Fault, Result};
+use crate::emotion::Marks;
 use crate::face::{Face, FeaturePoint, How, Placed};
 use crate::geometry::Point;
+use crate::pose::Emotion;
 use crate::timeline::{Key, Marker, Range};
 use crate::timing::{Tier, Timing};
 
@@ -134,6 +137,9 @@ pub enum Edit {
     Point {
         /// Number of the face.
         face: usize,
+        /// In which of its shots; a journal that does not say means the neutral one.
+        #[serde(default = "neutral")]
+        shot: Emotion,
         /// The point's name.
         point: String,
         /// As it was.
@@ -150,6 +156,21 @@ pub enum Edit {
         /// As it is to be.
         after: Option<String>,
     },
+    /// The points of a shot as a whole, as the text of its `happy.toml`; none is a shot without points.
+    Marks {
+        /// Number of the face.
+        face: usize,
+        /// Which of its shots.
+        shot: Emotion,
+        /// As it was.
+        before: Option<String>,
+        /// As it is to be.
+        after: Option<String>,
+    },
+}
+
+fn neutral() -> Emotion {
+    Emotion::Neutral
 }
 
 /// The tiers of a clip, and what they were made from.
@@ -223,8 +244,11 @@ impl Edit {
             Self::RemoveRange { clip, at, range } => Self::AddRange { clip, at, range },
             Self::AddMarker { clip, marker } => Self::RemoveMarker { clip, marker },
             Self::RemoveMarker { clip, marker } => Self::AddMarker { clip, marker },
-            Self::Point { face, point, before, after } => Self::Point { face, point, before: after, after: before },
+            Self::Point { face, shot, point, before, after } => {
+                Self::Point { face, shot, point, before: after, after: before }
+            }
             Self::Face { face, before, after } => Self::Face { face, before: after, after: before },
+            Self::Marks { face, shot, before, after } => Self::Marks { face, shot, before: after, after: before },
         }
     }
 
@@ -294,13 +318,15 @@ impl Edit {
             }
             Self::AddMarker { clip, marker } => add(&mut clip_of(clips, *clip)?.score.markers, marker),
             Self::RemoveMarker { clip, marker } => remove(&mut clip_of(clips, *clip)?.score.markers, marker),
-            Self::Point { face, point, before, after } => {
-                let face = faces.get_mut(*face).and_then(|f| f.face.as_mut()).ok_or_else(stale)?;
+            Self::Point { face, shot, point, before, after } => {
+                let face = faces.get_mut(*face).ok_or_else(stale)?;
                 let point = FeaturePoint::named(point).ok_or_else(stale)?;
-                let placed = face.placed_mut(point).filter(|p| before.is_of(p)).ok_or_else(stale)?;
-                if !after.at.iter().all(|v| v.abs() <= crate::face::MAX_COORDINATE) {
-                    return Err(Fault::new("the point would lie nowhere near the photo").help("move it back"));
-                }
+                let placed = match shot {
+                    Emotion::Neutral => face.face.as_mut().and_then(|f| f.placed_mut(point)),
+                    emotion => face.shots[emotion.index()].placed_mut(point),
+                };
+                let placed = placed.filter(|p| before.is_of(p)).ok_or_else(stale)?;
+                near_the_photo(after.at)?;
                 *placed = (*after).into();
                 Ok(())
             }
@@ -310,6 +336,15 @@ impl Edit {
                     return Err(stale());
                 }
                 face.face = after.as_deref().map(Face::parse).transpose()?;
+                Ok(())
+            }
+            Self::Marks { face, shot, before, after } => {
+                let face = faces.get_mut(*face).ok_or_else(stale)?;
+                let shot = face.shots.get_mut(shot.index()).filter(|_| *shot != Emotion::Neutral).ok_or_else(stale)?;
+                if shot.marks.as_ref().map(Marks::to_toml) != *before {
+                    return Err(stale());
+                }
+                shot.marks = after.as_deref().map(Marks::parse).transpose()?;
                 Ok(())
             }
         }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{Clip, LessonFace, MANIFEST, Manifest, figures, quality};
 use crate::disk::{Fault, read_bytes};
+use crate::emotion::ShotFiles;
 use crate::face::{FeaturePoint, How};
 use crate::figure::Figure;
 use crate::photo::{MAX_PHOTO_BYTES, sha256};
@@ -105,6 +106,7 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
         }
         None => {}
     }
+    found.extend(of_shots(face));
     if let (false, Some(style)) = (is_cartoon, &face.entry.style) {
         found.push(odd(format!("line figures have no styles, `{style}` changes nothing")));
     }
@@ -119,6 +121,32 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
         }
     }
     found
+}
+
+/// The shots of a face, and whether its calibration is of them.
+fn of_shots(face: &LessonFace) -> Option<Finding> {
+    let name = &face.entry.name;
+    let shots = counted(face.shots.iter().filter(|s| s.photo.is_some()).count(), "photo");
+    if let Some(what) = &face.damage {
+        let what = format!("its calibration.toml cannot be read ({what})");
+        return Some(Finding::Odd(format!("face {name}: {what}; `lianpu calibrate` makes it anew")));
+    }
+    let Some(file) = &face.calibration else {
+        let any = face.shots.iter().any(|s| s.photo.is_some());
+        return any.then(|| {
+            Finding::Odd(format!("face {name}: {shots} of emotions, never calibrated; `lianpu calibrate` does that"))
+        });
+    };
+    // The photos may be others too, which only their bytes tell.
+    if ShotFiles::of(&face.folder).is_ok_and(|files| files.sums == file.inputs) {
+        let retake = file.quality.retake.as_ref();
+        return Some(match retake {
+            None => Finding::Fine(format!("face {name}: calibrated with {shots} of emotions")),
+            Some(retake) => Finding::Odd(format!("face {name}: calibrated with {shots} of emotions; {}", retake.why)),
+        });
+    }
+    let what = "its photos or points were changed since it was calibrated";
+    Some(Finding::Odd(format!("face {name}: {what}; `lianpu calibrate` does that again")))
 }
 
 fn of_clip(clip: &Clip) -> Vec<Finding> {

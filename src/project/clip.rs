@@ -121,9 +121,11 @@ impl Clip {
             clip.sound_seconds = sound.duration();
             clip.sound = Some(Arc::new(sound));
         }
+        let mut ratios = None;
         if let Some((path, text)) = text("ratios.csv")? {
             clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
             clip.seen.ratios = super::save::checksum(&path);
+            ratios = Some(text);
         }
         if let Some((path, text)) = text("tracks.csv")? {
             clip.tracks = Some(Tracks::parse(&text).map_err(|f| f.at(&path))?);
@@ -132,6 +134,9 @@ impl Clip {
         if let Some((path, text)) = text("score.toml")? {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
             clip.seen.score = super::save::checksum(&path);
+        }
+        if let Some(ratios) = &ratios {
+            clip.disown(ratios);
         }
         if clip.sound.is_none() && clip.record.is_none() {
             // A video that cannot be opened here, for want of ffmpeg, is no reason not to show the rest.

@@ -16,7 +16,7 @@ use crate::pose::Emotion;
 use crate::script::System;
 use crate::speech::Note;
 use crate::timing::{self, Format};
-use crate::track::Options;
+use crate::track::{Options, sound_of};
 
 /// The largest recording that is copied: hours of sound.
 const MAX_SOUND_BYTES: u64 = 4 << 30;
@@ -134,8 +134,9 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
         take_of: None,
         video_fps: new.video_fps.filter(|_| new.video.as_deref().is_some_and(Path::is_dir)),
     };
+    let mut notes = Vec::new();
     if has_clip {
-        fill(draft.path(), &clip, new)?;
+        notes.extend(fill(draft.path(), &clip, new)?);
     }
     let faces = draft.path().join("faces").join(FACE);
     if let Some((photo, created)) = &face {
@@ -169,7 +170,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
             None => fault,
         });
     }
-    let mut notes = find_times(&mut lesson)?;
+    notes.extend(find_times(&mut lesson)?);
     let calibration = calibrate_shots(&lesson, new)?;
     notes.extend(follow_faces(&mut lesson, go_on)?);
     drop(lesson);
@@ -226,11 +227,15 @@ fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>)
             Ok(followed) => {
                 notes.extend(followed.notes);
                 notes.extend(followed.tracked.notes.iter().cloned());
-                lesson.take_tracked(number, followed.tracked, followed.checksum);
+                lesson.take_tracked(number, followed.tracked, &followed.checksum);
                 lesson.clips[number].footage_changed = true;
                 lesson.clips[number].save()?;
             }
-            Err(fault) => notes.push(format!("the face in its video could not be followed: {fault}")),
+            Err(fault) => notes.push(format!(
+                "the face in its video could not be followed: {}: {}; then `lianpu track`",
+                fault.what(),
+                fault.next_step()
+            )),
         }
     }
     Ok(notes)
@@ -275,7 +280,9 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
     Ok(())
 }
 
-fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
+/// Copies what a clip is made of into its folder; what there is to say of that.
+fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
     let folder = root.join("clips").join(&clip.name);
     std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
     if let Some(path) = &new.speech {
@@ -292,7 +299,8 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
         write_whole(&folder.join("timing.TextGrid"), timing::write(&timing, Format::TextGrid).as_bytes())?;
     }
     if let Some(path) = &new.ratios {
-        let (record, tracks, _) = import::read(path)?;
+        let (record, tracks, said) = import::read(path)?;
+        notes.extend(said);
         write_whole(&folder.join("ratios.csv"), record.to_csv().as_bytes())?;
         if let Some(tracks) = tracks {
             write_whole(&folder.join("tracks.csv"), tracks.to_csv().as_bytes())?;
@@ -300,8 +308,14 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
     }
     if let Some(path) = &new.video {
         copy_video(path, &folder)?;
+        if new.speech.is_none() && path.is_file() {
+            // A video without a sound track is a video all the same.
+            if let Err(fault) = sound_of(path, &folder.join("speech.wav")) {
+                notes.push(format!("the video brings no sound: {}", fault.what()));
+            }
+        }
     }
-    Ok(())
+    Ok(notes)
 }
 
 /// The fault with the author's file in place of its copy in the draft.
@@ -313,7 +327,8 @@ fn of_inputs(fault: &Fault, new: &NewLesson) -> Fault {
         "timing" => &new.timing,
         "ratios" => &new.ratios,
         "neutral" | "face" => &new.neutral,
-        _ => &None,
+        "video" => &new.video,
+        shot => &new.shots.iter().find(|(e, _)| e.name() == shot).map(|(_, path)| path.clone()),
     };
     let mut named = Fault::new(fault.what()).help(fault.next_step());
     if let Some(path) = original {

@@ -87,13 +87,15 @@ impl Clip {
         doubts
     }
 
-    /// The stretches of its video in which the face was lost, or followed unsurely, by rising time. A record that
-    /// somebody else made has none.
+    /// The stretches of its video in which the face was lost, or followed unsurely, by rising time. Of a
+    /// record that somebody else made only those without a face.
     #[must_use]
     pub fn lost(&self) -> Vec<Doubt> {
-        let Some(record) = self.record.as_ref().filter(|_| self.score.tracked.is_some()) else { return Vec::new() };
+        let Some(record) = &self.record else { return Vec::new() };
+        // How another program counts its confidence, only that program knows; 0 is a frame without a face everywhere.
+        let sure = if self.score.tracked.is_some() { SURE_OF_FACE } else { f64::MIN_POSITIVE };
         let mut found: Vec<Doubt> = Vec::new();
-        for (i, row) in record.rows.iter().enumerate().filter(|(_, row)| row.confidence < SURE_OF_FACE) {
+        for (i, row) in record.rows.iter().enumerate().filter(|(_, row)| row.confidence < sure) {
             let what = if row.confidence > 0.0 { Concern::FaceUnsure } else { Concern::FaceLost };
             let end = record.rows.get(i + 1).map_or_else(|| record.duration(), |next| next.time);
             match found.last_mut().filter(|last| last.what == what && row.time - last.end < NEAR) {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::manifest::FaceEntry;
 use super::save::checksum;
+use super::shots::{FaceShot, shots_of};
 use crate::disk::{Result, inside, read_text};
 use crate::emotion::{CALIBRATION, CalibrationFile};
 use crate::face::{Face, create};
@@ -29,6 +30,10 @@ pub struct LessonFace {
     pub photo: Option<PathBuf>,
     /// The shapes of its person's emotions, where they were calibrated.
     pub calibration: Option<Box<CalibrationFile>>,
+    /// What is wrong with the file of that, where it cannot be read.
+    pub damage: Option<String>,
+    /// The shots of the emotions in canonical order; the first has nothing, the neutral one is `photo` and `face`.
+    pub shots: Box<[FaceShot; 7]>,
     /// The checksum of `face.toml` as it was last read or written.
     pub(super) seen: Option<u32>,
     /// The face as the file has it.
@@ -55,8 +60,14 @@ impl LessonFace {
             false => (None, None),
         };
         let path = inside(root, &format!("faces/{}/{CALIBRATION}", entry.name))?;
-        let calibration = path.is_file().then(|| CalibrationFile::read(&path).map(Box::new)).transpose()?;
-        Ok(Self { entry: entry.clone(), folder, written: face.clone(), face, photo, calibration, seen })
+        // A damaged calibration is made anew; it is no reason not to open a lesson.
+        let (calibration, damage) = match path.is_file().then(|| CalibrationFile::read(&path)) {
+            Some(Ok(file)) => (Some(Box::new(file)), None),
+            Some(Err(fault)) => (None, Some(fault.what().to_owned())),
+            None => (None, None),
+        };
+        let shots = Box::new(shots_of(root, &entry.name)?);
+        Ok(Self { entry: entry.clone(), folder, written: face.clone(), face, photo, calibration, damage, shots, seen })
     }
 
     /// Whether the face has points to draw a cartoon from.

@@ -31,6 +31,18 @@ impl Clip {
         }
     }
 
+    /// Whether `ratios.csv` is still what tracking wrote: one that an author has changed is hers.
+    pub(super) fn disown(&mut self, ratios: &str) {
+        let sum = format!("{:08x}", crc32fast::hash(ratios.as_bytes()));
+        if self.score.tracked.as_ref().is_some_and(|t| !t.ends_with(&sum)) {
+            self.score.tracked = None;
+            self.warnings.push(
+                "its ratios.csv was changed since the face was followed, and stays; `lianpu track` with `--replace` finds it anew"
+                    .into(),
+            );
+        }
+    }
+
     /// Puts what was found in a video in the place of what was there.
     pub(super) fn take_footage(&mut self, before: &Footage, after: &Footage) -> Result<()> {
         if self.footage() != *before {
@@ -70,15 +82,21 @@ impl Clip {
     }
 }
 
+/// The checksum of what a record was found in, and that of the record as its file has it.
+fn with_sum(checksum: &str, ratios: &str) -> String {
+    format!("{checksum}{:08x}", crc32fast::hash(ratios.as_bytes()))
+}
+
 impl Lesson {
     /// The change that gives a clip what was found in its video; none where that is what it has.
     #[must_use]
-    pub fn tracked(&self, number: usize, tracked: &Tracked, checksum: String) -> Option<Change> {
+    pub fn tracked(&self, number: usize, tracked: &Tracked, checksum: &str) -> Option<Change> {
         let before = self.clips.get(number)?.footage();
+        let ratios = tracked.record.to_csv();
         let after = Footage {
-            ratios: Some(tracked.record.to_csv()),
+            tracked: Some(with_sum(&checksum, &ratios)),
+            ratios: Some(ratios),
             tracks: Some(tracked.tracks.to_csv()),
-            tracked: Some(checksum),
         };
         if before == after {
             return None;
@@ -88,11 +106,11 @@ impl Lesson {
     }
 
     /// Gives a clip what was found in its video, in memory only: for an export of a lesson that was never tracked.
-    pub fn take_tracked(&mut self, number: usize, tracked: Tracked, checksum: String) {
+    pub fn take_tracked(&mut self, number: usize, tracked: Tracked, checksum: &str) {
         if let Some(clip) = self.clips.get_mut(number) {
+            clip.score.tracked = Some(with_sum(checksum, &tracked.record.to_csv()));
             clip.record = Some(tracked.record);
             clip.tracks = Some(tracked.tracks);
-            clip.score.tracked = Some(checksum);
         }
     }
 }

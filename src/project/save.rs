@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Clip, Lesson, LessonFace};
+use super::{Change, Clip, Edit, Lesson, LessonFace};
 use crate::disk::{Fault, Result, write_whole};
+use crate::emotion::{Kept, Marks};
 use crate::face::Face;
+use crate::pose::Emotion;
 use crate::timeline::Score;
 use crate::timing::{self, Format};
 
@@ -23,7 +25,7 @@ impl Lesson {
             written.extend(clip.save()?);
         }
         for face in &mut self.faces {
-            written.extend(face.save()?);
+            written.extend(face.save_all()?);
         }
         if let Some(journal) = &mut self.journal {
             journal.clear()?;
@@ -58,6 +60,36 @@ impl Lesson {
         Ok(written?.is_some())
     }
 
+    /// What makes the points that a calibration found those of the lesson: a change of every shot whose points differ.
+    ///
+    /// # Errors
+    /// When the face's points were changed while it was made.
+    pub fn calibrated(&self, number: usize, kept: &Kept) -> Result<Option<Change>> {
+        let Some(face) = self.faces.get(number).filter(|f| f.sums_match(&kept.inputs)) else {
+            return Err(Fault::new("the points or photos were changed while it calibrated").help("calibrate again"));
+        };
+        let marks = Emotion::ALL[1..].iter().filter_map(|emotion| {
+            let before = face.shots[emotion.index()].marks.as_ref().map(Marks::to_toml);
+            let after = kept.marks.iter().find(|(e, _)| e == emotion).map(|(_, m)| m.to_toml())?;
+            let (face, shot) = (number, *emotion);
+            (before.as_ref() != Some(&after)).then(|| Edit::Marks { face, shot, before, after: Some(after) })
+        });
+        let edits: Vec<Edit> = marks.collect();
+        Ok((!edits.is_empty()).then(|| Change { label: "find the points of the shots".into(), edits }))
+    }
+
+    /// Keeps a calibration: saves the lesson, writes `calibration.toml` and `model.aam`, and takes it over.
+    ///
+    /// # Errors
+    /// As [`Self::save`], and when a file of the calibration cannot be written.
+    pub fn keep_calibration(&mut self, number: usize, kept: &Kept) -> Result<()> {
+        self.save()?;
+        match self.faces.get_mut(number) {
+            Some(face) => face.take_calibration(kept),
+            None => Ok(()),
+        }
+    }
+
     /// Drops every change that is not in the files: the journal forgets them, so that no later run brings them back,
     /// and the lesson in memory, which still has them, is given up.
     ///
@@ -72,6 +104,21 @@ impl Lesson {
 }
 
 impl LessonFace {
+    /// Writes what differs, once it is sure that none of its files was changed by something else.
+    fn save_all(&mut self) -> Result<Vec<PathBuf>> {
+        if let Some(face) = self.face.as_ref().filter(|_| self.face != self.written) {
+            unchanged(&self.path(), &face.to_toml(), self.seen)?;
+        }
+        for (emotion, shot) in Emotion::ALL.into_iter().zip(self.shots.iter()) {
+            shot.ready(&self.folder, emotion)?;
+        }
+        let mut written: Vec<PathBuf> = self.save()?.into_iter().collect();
+        for (emotion, shot) in Emotion::ALL.into_iter().zip(self.shots.iter_mut()) {
+            written.extend(shot.save(&self.folder, emotion)?);
+        }
+        Ok(written)
+    }
+
     /// Writes `face.toml` where the face differs from the file's, and removes it where its points were taken back.
     fn save(&mut self) -> Result<Option<PathBuf>> {
         if self.face == self.written {
@@ -160,7 +207,7 @@ pub(super) fn checksum(path: &Path) -> Option<u32> {
 }
 
 /// Makes sure that nobody else has changed a file since it was read or written last.
-fn unchanged(path: &Path, text: &str, seen: Option<u32>) -> Result<()> {
+pub(super) fn unchanged(path: &Path, text: &str, seen: Option<u32>) -> Result<()> {
     match checksum(path) {
         Some(now) if Some(now) != seen && now != crc32fast::hash(text.as_bytes()) => {
             Err(Fault::new("the file was changed by something else since the lesson was opened, and is left as it is")

@@ -150,7 +150,7 @@ impl Clip {
     /// Whether the face in its video is still to be followed.
     #[must_use]
     pub fn wants_tracking(&self) -> bool {
-        self.video.is_some() && (self.record.is_none() || self.tracks.is_none()) && self.score.tracked.is_none()
+        self.video.is_some() && self.record.is_none() && self.score.tracked.is_none()
     }
 }
 
@@ -166,7 +166,11 @@ impl Lesson {
             return Ok(clip.wants_tracking());
         };
         let folder = self.manifest.face_of(&clip.entry).map(|f| self.root.join("faces").join(&f.name));
-        let Some(kept) = folder.map(|f| Kept::read(&f)).transpose()?.flatten() else { return Ok(false) };
-        Ok(checksum(&source, &kept, method, options)? != *before)
+        let Some(folder) = folder else { return Ok(false) };
+        // What is not kept, or is of other shots, is calibrated anew: nobody knows what comes of that.
+        match Kept::read(&folder)? {
+            Some(kept) if kept.is_of(&folder) => Ok(!before.starts_with(&checksum(&source, &kept, method, options)?)),
+            _ => Ok(true),
+        }
     }
 }

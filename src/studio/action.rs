@@ -111,6 +111,10 @@ pub enum Action {
     Emotion(i32),
     /// Show the cartoon with another mouth shape.
     Mouth(i32),
+    /// Go to another shot of the face.
+    Shot(i32),
+    /// Calibrate the face from its shots.
+    Calibrate,
     /// Show another stage of the search.
     Stage(i32),
     /// Find the clip's times in its sound.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::action::Action;
-use super::execute::Job;
+use super::job::Job;
 use super::overlay::Overlay;
 use super::state::State;
 use crate::disk::Result;

@@ -1,127 +1,17 @@
 //! The one place where actions are carried out. It changes the state and names the work that a thread is to do; it
 //! draws nothing, waits for nothing and knows no terminal.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::editor::Editor;
 use super::export::{ExportRequest, Progress};
+use super::job::Job;
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
 use super::{Action, Place, aligning, edits, face_edits, following, listening, places, tap_desk};
 use crate::export::Format;
-use crate::face::{Anchors, Face};
-use crate::geometry::Point;
-use crate::project::{AlignJob, TrackJob};
-use crate::speech::Sound;
-use crate::track::Source;
-
-/// Work that takes long enough to be done elsewhere.
-#[derive(Debug)]
-pub enum Job {
-    /// Open a lesson and check it.
-    Open(PathBuf),
-    /// Check a lesson's files, after they were written.
-    Check(PathBuf),
-    /// Make the outline of a clip's sound.
-    Outline {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the clip.
-        clip: usize,
-        /// Its sound.
-        sound: Arc<Sound>,
-    },
-    /// Find a clip's times in its sound.
-    Align {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// What to align.
-        job: Box<AlignJob>,
-    },
-    /// Follow the face in a clip's video.
-    Follow {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the clip.
-        clip: usize,
-        /// What to follow.
-        job: Box<TrackJob>,
-        /// Set to stop it.
-        stop: Arc<AtomicBool>,
-    },
-    /// Read a frame of a clip's video.
-    Frame {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the clip.
-        clip: usize,
-        /// Its video.
-        source: Box<Source>,
-        /// Which frame, counted from 0.
-        number: u32,
-    },
-    /// Make the spectrogram of a clip's sound.
-    Spectrogram {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the clip.
-        clip: usize,
-        /// Its sound.
-        sound: Arc<Sound>,
-    },
-    /// Track the pitch of a clip's sound.
-    Pitch {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the clip.
-        clip: usize,
-        /// Its sound.
-        sound: Arc<Sound>,
-    },
-    /// Mark where syllables are heard in a clip's sound.
-    Nuclei {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the clip.
-        clip: usize,
-        /// Its sound.
-        sound: Arc<Sound>,
-    },
-    /// Read the photo of a face, and work out the stages of the search.
-    Photo {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the face.
-        face: usize,
-        /// The photo's file.
-        path: PathBuf,
-        /// Its eyeballs, where they are known.
-        eyes: Option<[Point; 2]>,
-    },
-    /// Find the points of a face.
-    FindFace {
-        /// The lesson's folder.
-        root: PathBuf,
-        /// Number of the face.
-        face: usize,
-        /// The photo's file.
-        path: PathBuf,
-        /// The face so far: what a hand has set in it stays.
-        kept: Option<Box<Face>>,
-        /// Four places given by hand.
-        anchors: Option<Anchors>,
-    },
-    /// Export.
-    Export {
-        /// What.
-        request: ExportRequest,
-        /// Set to stop it.
-        cancel: Arc<AtomicBool>,
-    },
-}
 
 /// What is said when something is played for the first time. It stands only while it plays.
 pub(super) const SILENT: &str = "playing without sound: this version has none yet";
@@ -239,6 +129,7 @@ fn open_clip(state: &mut State) -> Option<(usize, Option<Job>)> {
             return None;
         }
     };
+    following::forget(state);
     let mut editor = Editor::new(state.lesson()?, chosen, figure);
     if let Some(left) = state.open.as_ref()?.left.get(&chosen) {
         editor.go_back(&state.lesson()?.clips[chosen], *left);
@@ -305,12 +196,13 @@ fn go(state: &mut State, by: Action) {
             state.face = None;
             state.editor = None;
             state.open = None;
+            state.footage = Default::default();
         }
     }
 }
 
 /// Writes the lesson's files; whether any of them changed.
-fn save(state: &mut State) -> bool {
+pub(super) fn save(state: &mut State) -> bool {
     let Some(lesson) = state.lesson_mut() else { return false };
     let done = lesson.save();
     let any = done.as_ref().is_ok_and(|written| !written.is_empty());

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use crate::drawing::Drawing;
-use crate::face::{Face, FeaturePoint, Placed};
+use crate::face::{FeaturePoint, Placed};
 use crate::figure::Figure;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::photo::Photo;
 use crate::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
+use crate::project::LessonFace;
 
 /// How much nearer one step of the zoom brings the photo.
 const ZOOM_STEP: f64 = 1.6;
@@ -19,7 +20,13 @@ const MAX_ZOOM: i32 = 6;
 pub struct FaceDesk {
     /// Number of the face.
     pub face: usize,
-    /// Its photo; none while it is read, and where there is none.
+    /// Which of its shots is looked at.
+    pub shot: Emotion,
+    /// Points of somebody else's annotation of that shot, which have no names.
+    pub dots: Vec<Point>,
+    /// Whether the points were changed since the face was calibrated.
+    pub is_stale: bool,
+    /// The photo of the shot; none while it is read, and where there is none.
     pub photo: Option<Arc<Photo>>,
     /// The point that keys move.
     pub point: FeaturePoint,
@@ -76,6 +83,9 @@ impl FaceDesk {
     pub fn new(face: usize, mouths: MouthPreset, figure: Option<Figure>) -> Self {
         Self {
             face,
+            shot: Emotion::Neutral,
+            dots: Vec::new(),
+            is_stale: false,
             photo: None,
             point: FeaturePoint::P3_6,
             both: false,
@@ -109,13 +119,14 @@ impl FaceDesk {
     /// The part of the photo to show, in its pixels: the face with its hair, or nearer round the chosen point or the
     /// cross.
     #[must_use]
-    pub fn view(&self, face: Option<&Face>, size: Vec2) -> Rect {
+    pub fn view(&self, points: &[(FeaturePoint, Placed)], size: Vec2) -> Rect {
         let whole = Rect::new(-0.5, -0.5, size.x - 0.5, size.y - 0.5);
-        let around = face.map_or(whole, |face| {
-            let points = FeaturePoint::all().filter_map(|p| face.placed(p)).map(|p| p.at);
-            let first = Rect::from_points(face.points[0].at, face.points[0].at);
-            let bounds = points.fold(first, |r, p| r.union_pt(p));
-            let margin = 0.12 * bounds.width().max(bounds.height()).max(8.0);
+        let mut places = points.iter().map(|p| p.1.at).chain(self.dots.iter().copied());
+        let around = places.next().map_or(whole, |first| {
+            let bounds = places.fold(Rect::from_points(first, first), |r, p| r.union_pt(p));
+            // A shot has no points of hair and ears, which are seen all the same.
+            let share = if self.shot == Emotion::Neutral { 0.12 } else { 0.3 };
+            let margin = share * bounds.width().max(bounds.height()).max(8.0);
             let shown = bounds.inflate(margin, margin).intersect(whole);
             if shown.width() > 4.0 && shown.height() > 4.0 { shown } else { whole }
         });
@@ -124,26 +135,38 @@ impl FaceDesk {
             return around;
         }
         let scale = ZOOM_STEP.powi(-self.zoom);
-        let middle = match (&self.placing, face.and_then(|f| f.placed(self.point))) {
+        let middle = match (&self.placing, points.iter().find(|p| p.0 == self.point)) {
             (Some(placing), _) => placing.cross,
-            (None, Some(placed)) => placed.at,
+            (None, Some((_, placed))) => placed.at,
             (None, None) => around.center(),
         };
         Rect::from_center_size(middle, around.size() * scale)
     }
 
-    /// Chooses the next or previous point that the face has.
-    pub fn choose(&mut self, by: i32, face: &Face) {
-        let there: Vec<FeaturePoint> = FeaturePoint::all().filter(|p| face.placed(*p).is_some()).collect();
-        let here = there.iter().position(|p| *p == self.point).unwrap_or(0) as i32;
-        self.point = there[(here + by).rem_euclid(there.len() as i32) as usize];
+    /// The named points of the shot that is looked at.
+    #[must_use]
+    pub fn points(&self, face: &LessonFace) -> Vec<(FeaturePoint, Placed)> {
+        match (face.shot(self.shot), &face.face) {
+            (Some(shot), _) => shot.points().collect(),
+            (None, Some(face)) => FeaturePoint::all().filter_map(|p| Some((p, *face.placed(p)?))).collect(),
+            (None, None) => Vec::new(),
+        }
+    }
+
+    /// Chooses the next or previous of the points that there are.
+    pub fn choose(&mut self, by: i32, points: &[(FeaturePoint, Placed)]) {
+        let here = points.iter().position(|p| p.0 == self.point).unwrap_or(0) as i32;
+        if let Some((point, _)) = points.get((here + by).rem_euclid(points.len().max(1) as i32) as usize) {
+            self.point = *point;
+        }
     }
 }
 
 /// A step of a point at one side as its mirror image takes it: mirrored at the line midway between the pupils.
 #[must_use]
-pub fn mirrored(step: Vec2, face: &Face) -> Vec2 {
-    let across = face.points[FeaturePoint::P3_5.index()].at - face.points[FeaturePoint::P3_6.index()].at;
+pub fn mirrored(step: Vec2, points: &[(FeaturePoint, Placed)]) -> Vec2 {
+    let at = |p: FeaturePoint| points.iter().find(|q| q.0 == p).map_or(Point::ORIGIN, |q| q.1.at);
+    let across = at(FeaturePoint::P3_5) - at(FeaturePoint::P3_6);
     let length = across.hypot();
     if length < 1e-6 {
         return Vec2::new(-step.x, step.y);
@@ -166,12 +189,14 @@ pub fn told(placed: &Placed) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::face::Face;
 
     #[test]
     fn a_step_outwards_is_a_step_outwards_at_the_other_side() {
         let text = include_str!("../../projects/nihao/faces/teacher/face.toml");
         let face = Face::parse(text).expect("a face");
-        let step = mirrored(Vec2::new(-1.0, 2.0), &face);
+        let points: Vec<_> = FeaturePoint::all().filter_map(|p| Some((p, *face.placed(p)?))).collect();
+        let step = mirrored(Vec2::new(-1.0, 2.0), &points);
         // The eyes of the photo are not quite level.
         assert!((step.x - 1.0).abs() < 0.15 && (step.y - 2.0).abs() < 0.15, "{step:?}");
     }

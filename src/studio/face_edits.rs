@@ -2,8 +2,9 @@
 //! of the lesson.
 
 use super::action::Action;
-use super::execute::Job;
+use super::calibrating;
 use super::face_desk::{FaceDesk, Placing, mirrored};
+use super::job::Job;
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
@@ -38,7 +39,8 @@ pub(super) fn open(state: &mut State) -> Option<Job> {
         Err(fault) => desk.remarks.push(format!("the cartoon cannot be drawn: {}", fault.what())),
     }
     let path = face.photo.clone();
-    let eyes = face.face.as_ref().map(|f| [FeaturePoint::P3_6, FeaturePoint::P3_5].map(|p| f.points[p.index()].at));
+    let eyes = eyes(face);
+    desk.is_stale = face.is_stale();
     if face.face.is_none() {
         desk.remarks.push("the points have not been found yet: r finds them".into());
     }
@@ -48,12 +50,24 @@ pub(super) fn open(state: &mut State) -> Option<Job> {
     if let Some(why) = why {
         state.say(format!("you can look but not change: {why}"));
     }
-    path.map(|path| Job::Photo { root, face: number, path, eyes })
+    let shot = Emotion::Neutral;
+    path.map(|path| Job::Photo { root, face: number, shot, path, eyes, dots: None, stages: true })
+}
+
+/// The pupils of a face in its neutral photo.
+pub(super) fn eyes(face: &LessonFace) -> Option<[Point; 2]> {
+    face.face.as_ref().map(|f| [FeaturePoint::P3_6, FeaturePoint::P3_5].map(|p| f.points[p.index()].at))
 }
 
 /// Carries out what is asked for on the page of a face.
 pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
+    let is_shot = state.face.as_ref().is_some_and(|desk| desk.shot != Emotion::Neutral);
     match action {
+        Action::Shot(by) => return calibrating::turn(state, by),
+        Action::Calibrate => return calibrating::ask(state),
+        Action::FindAgain if is_shot => state.refuse("r is for the neutral photo: C finds the points of the shots"),
+        Action::Anchors | Action::Stage(_) if is_shot => state.refuse("that is for the neutral photo: [ goes there"),
+        Action::Release if is_shot => release_of_shot(state),
         Action::Move(x, y) => shift(state, Vec2::new(f64::from(x), f64::from(y))),
         Action::FindAgain => return find_again(state, None),
         Action::Cross => return place(state),
@@ -70,12 +84,15 @@ pub(super) fn execute(state: &mut State, action: Action) -> Option<Job> {
 fn look(state: &mut State, action: Action) {
     let lesson = state.open.as_ref().and_then(|o| o.lesson.as_ref().ok());
     let (Some(lesson), Some(desk)) = (lesson, &mut state.face) else { return };
-    let face = lesson.faces.get(desk.face).and_then(|f| f.face.as_ref());
+    let Some(face) = lesson.faces.get(desk.face) else { return };
     let turned = |at: usize, by: i32, length: usize| (at as i32 + by).rem_euclid(length as i32) as usize;
     match action {
-        Action::Point(by) => match face {
-            Some(face) => desk.choose(by, face),
-            None => state.refuse("there are no points yet: r finds them"),
+        Action::Point(by) => match desk.points(face) {
+            points if points.is_empty() => {
+                let why = no_points(desk, face);
+                state.refuse(why);
+            }
+            points => desk.choose(by, &points),
         },
         Action::Both => {
             desk.both = !desk.both;
@@ -98,8 +115,23 @@ fn look(state: &mut State, action: Action) {
     }
 }
 
+/// Why a shot has no points to choose or move, and what to do.
+fn no_points(desk: &FaceDesk, face: &LessonFace) -> String {
+    match face.shot(desk.shot) {
+        None => "there are no points yet: r finds them".into(),
+        Some(shot) => match (&shot.photo, &shot.foreign) {
+            (None, _) => format!("there is no photo of {}: it is modelled", desk.shot),
+            (_, Some(path)) => {
+                let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+                format!("these points have no names: change them in {name}")
+            }
+            (Some(_), None) => "there are no points yet: C finds them".into(),
+        },
+    }
+}
+
 /// Whether the lesson can be changed; says why not.
-fn may_change(state: &mut State) -> bool {
+pub(super) fn may_change(state: &mut State) -> bool {
     if state.busy.is_some() {
         state.refuse("the face is still being looked for");
         return false;
@@ -135,9 +167,11 @@ pub(super) fn show(state: &mut State) {
         && let Some(face) = lesson.faces.get(desk.face)
     {
         desk.figure = face.face.is_some().then(|| lesson.cartoon_of(face).ok()).flatten();
-        if face.face.as_ref().is_some_and(|f| f.placed(desk.point).is_none()) {
+        let points = desk.points(face);
+        if !points.is_empty() && points.iter().all(|p| p.0 != desk.point) {
             desk.point = FeaturePoint::P3_6;
         }
+        desk.is_stale = face.is_stale();
     }
     if let Some(editor) = &mut state.editor
         && let Ok(figure) = lesson.figure_of(&lesson.clips[editor.clip].entry)
@@ -165,27 +199,30 @@ fn shift(state: &mut State, step: Vec2) {
         return;
     }
     let Some((desk, lesson_face)) = on_desk(state) else { return };
-    let Some(face) = &lesson_face.face else {
-        state.refuse("there are no points yet: r finds them");
+    let points = desk.points(lesson_face);
+    if points.is_empty() {
+        let why = no_points(desk, lesson_face);
+        state.refuse(why);
         return;
-    };
-    let number = desk.face;
+    }
+    let (number, shot) = (desk.face, desk.shot);
     let edit = |point: FeaturePoint, by: Vec2| {
-        let placed = face.placed(point)?;
+        let (_, placed) = points.iter().find(|p| p.0 == point)?;
         let to = placed.at + by;
         // As the file has it, so that what is read again is what was set.
         let at = [(to.x * 10.0).round() / 10.0, (to.y * 10.0).round() / 10.0];
         let after = Spot { at, confidence: 1.0, how: How::Hand };
-        Some(Edit::Point { face: number, point: point.name(), before: Spot::from(*placed), after })
+        Some(Edit::Point { face: number, shot, point: point.name(), before: Spot::from(*placed), after })
     };
     let mut edits: Vec<Edit> = edit(desk.point, step).into_iter().collect();
     let other = desk.point.mirror();
     if desk.both && other != desk.point {
-        edits.extend(edit(other, mirrored(step, face)));
+        edits.extend(edit(other, mirrored(step, &points)));
     }
+    let of = if shot == Emotion::Neutral { String::new() } else { format!(" of {shot}") };
     let label = match edits.len() {
-        2 => format!("move {} and {other}", desk.point),
-        _ => format!("move {}", desk.point),
+        2 => format!("move {} and {other}{of}", desk.point),
+        _ => format!("move {}{of}", desk.point),
     };
     change(state, Change { label, edits });
 }
@@ -208,6 +245,30 @@ fn release(state: &mut State) -> Option<Job> {
         }
     }
     find(state, Some(kept), None)
+}
+
+/// Gives the chosen point of a shot back to the search, which the next calibration is.
+fn release_of_shot(state: &mut State) {
+    if !may_change(state) {
+        return;
+    }
+    let Some((desk, lesson_face)) = on_desk(state) else { return };
+    let (face, shot, point) = (desk.face, desk.shot, desk.point);
+    let asked = [Some(point), desk.both.then(|| point.mirror())];
+    let set =
+        desk.points(lesson_face).into_iter().filter(|(p, placed)| asked.contains(&Some(*p)) && placed.how == How::Hand);
+    let edits: Vec<Edit> = set
+        .map(|(point, placed)| {
+            let before = Spot::from(placed);
+            let after = Spot { how: How::Rule, confidence: 0.0, ..before };
+            Edit::Point { face, shot, point: point.name(), before, after }
+        })
+        .collect();
+    if edits.is_empty() {
+        state.refuse(format!("{point} was not set by hand"));
+    } else if change(state, Change { label: format!("give {point} of {shot} back to the search"), edits }) {
+        state.say(format!("{point} of {shot} is free again: C finds it"));
+    }
 }
 
 fn find_again(state: &mut State, anchors: Option<Anchors>) -> Option<Job> {
@@ -330,11 +391,13 @@ fn ask_point(state: &mut State) {
 
 /// Takes the name of a point that was typed.
 pub(super) fn take_point(state: &mut State, typed: &str) -> Result<(), String> {
-    let (_, lesson_face) = on_desk(state).ok_or("there is no face on the desk")?;
-    let face = lesson_face.face.as_ref().ok_or("there are no points yet: r finds them")?;
-    let names: Vec<String> =
-        FeaturePoint::all().filter(|p| face.placed(*p).is_some()).map(FeaturePoint::name).collect();
-    match FeaturePoint::named(typed).filter(|p| face.placed(*p).is_some()) {
+    let (desk, lesson_face) = on_desk(state).ok_or("there is no face on the desk")?;
+    let points = desk.points(lesson_face);
+    if points.is_empty() {
+        return Err(no_points(desk, lesson_face));
+    }
+    let names: Vec<String> = points.iter().map(|p| p.0.name()).collect();
+    match FeaturePoint::named(typed).filter(|p| points.iter().any(|q| q.0 == *p)) {
         Some(point) => {
             if let Some(desk) = &mut state.face {
                 desk.point = point;

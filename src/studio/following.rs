@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::execute::Job;
+use super::job::Job;
 use super::state::State;
 use crate::disk::Result;
 use crate::photo::Photo;
@@ -127,7 +127,7 @@ pub(super) fn found(state: &mut State, root: &Path, clip: usize, found: Result<F
         }
     };
     let Some(lesson) = state.lesson() else { return };
-    let change = lesson.tracked(clip, &followed.tracked, followed.checksum.clone());
+    let change = lesson.tracked(clip, &followed.tracked, &followed.checksum);
     let is_new = change.is_some();
     if let Some(change) = change
         && !super::edits::change(state, change)
@@ -161,6 +161,11 @@ pub(super) fn show(state: &mut State) -> Option<Job> {
     }
     state.footage.shown = !state.footage.shown;
     missing(state)
+}
+
+/// Forgets the video of the clip that was on the desk; whether videos are shown stays.
+pub(super) fn forget(state: &mut State) {
+    state.footage = Footage { shown: state.footage.shown, ..Footage::default() };
 }
 
 /// The job that reads the frame at the cursor, where it is shown and not there yet.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::execute::Job;
+use super::job::Job;
 use super::state::State;
 use crate::speech::{Pitch, Spectrogram};
 

@@ -7,6 +7,7 @@
 mod action;
 mod aligning;
 mod boundary;
+mod calibrating;
 mod draw;
 mod edits;
 mod editor;
@@ -15,6 +16,7 @@ mod export;
 mod face_desk;
 mod face_edits;
 mod following;
+mod job;
 mod keys;
 mod lane;
 mod line;

@@ -6,7 +6,7 @@ use ratatui::style::{Modifier, Style};
 
 use super::face_desk::FaceDesk;
 use super::look::Colours;
-use crate::face::{Face, FeaturePoint, How};
+use crate::face::{FeaturePoint, How, Placed};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::photo::Photo;
 
@@ -19,9 +19,16 @@ pub fn size_in(view: Rect, area: Size) -> Size {
     Size::new(wide, high)
 }
 
-/// Puts the desk's part of the photo into the middle of an area, and the face's points on it.
-pub fn put(buffer: &mut Buffer, area: Cells, photo: &Photo, desk: &FaceDesk, face: Option<&Face>, colours: Colours) {
-    let view = desk.view(face, Vec2::new(photo.width() as f64, photo.height() as f64));
+/// Puts the desk's part of the photo into the middle of an area, and the shot's points on it.
+pub fn put(
+    buffer: &mut Buffer,
+    area: Cells,
+    photo: &Photo,
+    desk: &FaceDesk,
+    points: &[(FeaturePoint, Placed)],
+    colours: Colours,
+) {
+    let view = desk.view(points, Vec2::new(photo.width() as f64, photo.height() as f64));
     let size = size_in(view, area.as_size());
     let place = Cells::new(
         area.x + (area.width - size.width) / 2,
@@ -49,9 +56,10 @@ pub fn put(buffer: &mut Buffer, area: Cells, photo: &Photo, desk: &FaceDesk, fac
         mark(placing.cross, '╋', colours.ink(CHOSEN).add_modifier(Modifier::BOLD));
         return;
     }
-    let Some(face) = face else { return };
-    for point in FeaturePoint::all() {
-        let Some(placed) = face.placed(point) else { continue };
+    for dot in &desk.dots {
+        mark(*dot, '·', colours.ink(SET).add_modifier(Modifier::BOLD));
+    }
+    for (_, placed) in points {
         let (sign, colour) = match placed.how {
             How::Found => ('•', FOUND),
             How::Rule => ('◦', RULE),
@@ -61,11 +69,11 @@ pub fn put(buffer: &mut Buffer, area: Cells, photo: &Photo, desk: &FaceDesk, fac
     }
     let other = desk.point.mirror();
     if desk.both
-        && let Some(placed) = face.placed(other)
+        && let Some((_, placed)) = points.iter().find(|p| p.0 == other)
     {
         mark(placed.at, '◇', colours.ink(CHOSEN).add_modifier(Modifier::BOLD));
     }
-    if let Some(placed) = face.placed(desk.point) {
+    if let Some((_, placed)) = points.iter().find(|p| p.0 == desk.point) {
         mark(placed.at, '◆', colours.ink(CHOSEN).add_modifier(Modifier::BOLD));
     }
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::edits;
-use super::execute::Job;
+use super::job::Job;
 use super::overlay::Purpose;
 use super::state::State;
 use crate::project::Clip;

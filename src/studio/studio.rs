@@ -9,20 +9,24 @@ use ratatui::layout::Rect;
 
 use super::aligning::{self, Aligner};
 use super::draw::{self, FaceLayout, Layout, Pictures};
-use super::execute::{Job, SILENT, execute};
+use super::execute::{SILENT, execute};
 use super::export::{Exporter, Progress};
 use super::face_desk::FaceDesk;
+use super::job::Job;
 use super::listening::Tone;
 use super::overlay::Overlay;
 use super::picture::FacePicture;
 use super::state::Hear;
 use super::state::{Open, State};
 use super::voice::Voice;
-use super::{Action, Place, face_edits, following, keys, places, tap_desk, work};
+use super::{Action, Place, calibrating, face_edits, following, keys, places, tap_desk, work};
 use crate::disk::Result;
 use crate::drawing::Drawing;
+use crate::emotion::Kept;
 use crate::face::Created;
+use crate::geometry::Point;
 use crate::photo::Photo;
+use crate::pose::Emotion;
 use crate::project::Followed;
 use crate::project::{Finding, Lesson};
 use crate::speech::{Alignment, Heard, Spectrogram};
@@ -99,8 +103,19 @@ pub enum Report {
         root: PathBuf,
         /// Number of the face.
         face: usize,
-        /// The photo.
-        photo: Box<Result<Arc<Photo>>>,
+        /// Which of its shots.
+        shot: Emotion,
+        /// The photo, and the points of somebody else's annotation.
+        read: Box<Result<(Arc<Photo>, Vec<Point>)>>,
+    },
+    /// A face was calibrated, or cannot be.
+    Calibrated {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the face.
+        face: usize,
+        /// What was found; nothing of it is written yet.
+        made: Box<Result<Kept>>,
     },
     /// The stages of a photo are ready.
     Staged {
@@ -108,8 +123,8 @@ pub enum Report {
         root: PathBuf,
         /// Number of the face.
         face: usize,
-        /// Each with its caption.
-        stages: Vec<(String, Drawing)>,
+        /// Each with its caption; none where they were not asked for.
+        stages: Option<Vec<(String, Drawing)>>,
     },
     /// The points of a face were found, or not.
     FaceFound {
@@ -342,10 +357,11 @@ impl Studio {
                     None => self.state.refuse("this sound cannot be listened to"),
                 }
             }
-            Report::PhotoRead { root, face, photo } => match *photo {
-                Ok(photo) => {
-                    if let Some(desk) = self.desk_of(&root, face) {
+            Report::PhotoRead { root, face, shot, read } => match *read {
+                Ok((photo, dots)) => {
+                    if let Some(desk) = self.desk_of(&root, face).filter(|desk| desk.shot == shot) {
                         desk.photo = Some(photo);
+                        desk.dots = dots;
                     }
                 }
                 Err(fault) => {
@@ -356,8 +372,15 @@ impl Studio {
             },
             Report::Staged { root, face, stages } => {
                 self.under_way -= 1;
-                if let Some(desk) = self.desk_of(&root, face) {
+                if let Some((desk, stages)) = self.desk_of(&root, face).zip(stages) {
                     desk.stages = stages;
+                }
+            }
+            Report::Calibrated { root, face, made } => {
+                self.under_way -= 1;
+                self.state.busy = None;
+                if let Some(job) = calibrating::made(&mut self.state, &root, face, *made) {
+                    self.start(job);
                 }
             }
             Report::FaceFound { root, face, found } => {

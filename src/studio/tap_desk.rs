@@ -1,7 +1,7 @@
 //! What the keys do while syllables are tapped, and the change that tapping makes of the lesson.
 
 use super::action::Action;
-use super::execute::Job;
+use super::job::Job;
 use super::state::{Hear, State};
 use super::tapping::{Passed, Tapping};
 use crate::project::counted;

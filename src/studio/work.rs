@@ -9,12 +9,14 @@ use std::thread;
 use crossbeam_channel::Sender;
 
 use super::aligning::Aligner;
-use super::execute::Job;
 use super::export::Exporter;
+use super::job::Job;
 use super::listening::Tone;
 use super::studio::{Listening, Report};
-use crate::disk::{Fault, Result};
+use crate::aam::Annotation;
+use crate::disk::{Fault, Result, read_text};
 use crate::drawing::Drawing;
+use crate::emotion::Kept;
 use crate::face::{Anchors, Created, Face};
 use crate::geometry::Point;
 use crate::photo::{Photo, Stages};
@@ -84,13 +86,19 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                 let made = catch_unwind(|| Listening::Syllables(nuclei(&sound)));
                 reports.send(Report::Listened { root, clip, what: made.ok() })
             }
-            Job::Photo { root, face, path, eyes } => {
-                let read = catch_unwind(|| Photo::read(&path)).unwrap_or_else(|_| Err(broken_photo()));
-                let photo = read.map(Arc::new);
-                let shown = photo.as_ref().ok().cloned();
-                let _ = reports.send(Report::PhotoRead { root: root.clone(), face, photo: Box::new(photo) });
+            Job::Photo { root, face, shot, path, eyes, dots, stages: wanted } => {
+                let read = catch_unwind(|| shot_of(&path, dots.as_deref())).unwrap_or_else(|_| Err(broken_photo()));
+                let shown = read.as_ref().ok().filter(|_| wanted).map(|read| Arc::clone(&read.0));
+                let _ = reports.send(Report::PhotoRead { root: root.clone(), face, shot, read: Box::new(read) });
                 let stages = shown.and_then(|photo| catch_unwind(|| stages(&photo, eyes)).ok());
-                reports.send(Report::Staged { root, face, stages: stages.unwrap_or_default() })
+                reports.send(Report::Staged { root, face, stages })
+            }
+            Job::Calibrate { root, face, folder } => {
+                let made = catch_unwind(|| Kept::make(&folder));
+                let broken =
+                    || Fault::new("the face cannot be calibrated").help("please report what `lianpu calibrate` says");
+                let made = Box::new(made.unwrap_or_else(|_| Err(broken())));
+                reports.send(Report::Calibrated { root, face, made })
             }
             Job::FindFace { root, face, path, kept, anchors } => {
                 let found = catch_unwind(|| find_face(&path, kept.as_deref(), anchors.as_ref()));
@@ -108,6 +116,15 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
             }
         };
     });
+}
+
+/// A photo, and the points of somebody else's annotation of it.
+fn shot_of(path: &Path, dots: Option<&Path>) -> Result<(Arc<Photo>, Vec<Point>)> {
+    let photo = Photo::read(path)?;
+    let Some(dots) = dots else { return Ok((Arc::new(photo), Vec::new())) };
+    let list = Annotation::parse(&read_text(dots)?).map_err(|f| f.at(dots))?;
+    let points = list.first().map(|a| a.in_pixels([photo.width(), photo.height()])).unwrap_or_default();
+    Ok((Arc::new(photo), points))
 }
 
 /// The stages of the search; from the eyes of the face on, where they are known.

@@ -26,7 +26,7 @@ impl Score {
         // Anything else was not written by this program, and is the checksum of nothing.
         let is_checksum = |s: &String| s.len() == 8 && s.bytes().all(|b| b.is_ascii_hexdigit());
         score.aligned = file.aligned.filter(is_checksum);
-        score.tracked = file.tracked.filter(is_checksum);
+        score.tracked = file.tracked.filter(|s| s.len() == 16 && s.bytes().all(|b| b.is_ascii_hexdigit()));
         for key in file.keys {
             let line = line_of(key.span());
             score.keys.push(key.into_inner().read().map_err(|f| f.line(line))?);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quality::Quality;
 use super::{Calibration, Shape, Source};
-use crate::disk::{Fault, Result, from_toml, read_text, write_whole};
+use crate::disk::{Fault, Result, from_toml, read_text};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint, MAX_COORDINATE};
 use crate::geometry::Point;
@@ -25,6 +25,8 @@ pub struct CalibrationFile {
     pub calibration: Calibration,
     /// How good they are.
     pub quality: Quality,
+    /// The SHA-256 of the model that was trained with them.
+    pub model: String,
     /// The files that they were made of, by name, with their SHA-256. Where one differs the calibration is stale.
     pub inputs: BTreeMap<String, String>,
 }
@@ -34,6 +36,7 @@ pub struct CalibrationFile {
 struct Table {
     format: u32,
     points: usize,
+    model: String,
     inputs: BTreeMap<String, String>,
     shapes: BTreeMap<Emotion, ShapeTable>,
     binding: BTreeMap<String, Vec<(usize, f64)>>,
@@ -75,6 +78,7 @@ impl CalibrationFile {
         let table = Table {
             format: FORMAT,
             points: shapes[0].points.len(),
+            model: self.model.clone(),
             inputs: self.inputs.clone(),
             shapes: Emotion::ALL.into_iter().zip(shapes).map(|(e, s)| (e, shape(s))).collect(),
             binding: self.calibration.binding().rows().iter().map(|(p, sum)| (p.name(), sum.clone())).collect(),
@@ -88,7 +92,13 @@ impl CalibrationFile {
     /// # Errors
     /// When it is damaged, of another format, or its numbers cannot be, with the line.
     pub fn parse(text: &str) -> Result<Self> {
-        let table: Table = from_toml(text)?;
+        let table: Table = from_toml(text).map_err(|fault| {
+            let told = Fault::new(fault.what()).help(AGAIN);
+            match fault.line_number() {
+                Some(line) => told.line(line),
+                None => told,
+            }
+        })?;
         let line = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map_or(1, |l| l + 1);
         if table.format != FORMAT {
             return Err(Fault::new(format!("format {} is not known to this version", table.format))
@@ -150,7 +160,7 @@ impl CalibrationFile {
         }
         let shapes: [Shape; 7] = shapes.try_into().map_err(|_| Fault::new("there are not seven shapes"))?;
         let calibration = Calibration::new(shapes, Binding::of_rows(n, rows)).map_err(|f| f.line(line("[shapes")))?;
-        Ok(Self { calibration, quality: table.quality, inputs: table.inputs })
+        Ok(Self { calibration, quality: table.quality, model: table.model, inputs: table.inputs })
     }
 
     /// Reads a file.
@@ -159,14 +169,6 @@ impl CalibrationFile {
     /// When it cannot be read, and as [`parse`](Self::parse).
     pub fn read(path: &Path) -> Result<Self> {
         Self::parse(&read_text(path)?).map_err(|fault| fault.at(path))
-    }
-
-    /// Writes a file, whole or not at all.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn write(&self, path: &Path) -> Result<()> {
-        write_whole(path, self.to_toml()?.as_bytes())
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::inputs::Inputs;
 use super::marks::Marks;
 use crate::aam::{Annotation, Grey};
-use crate::disk::{Fault, Result, read_bytes, read_text};
+use crate::disk::{Fault, Result, inside, read_bytes, read_text};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P, How, Placed};
@@ -18,6 +18,25 @@ use crate::pose::Emotion;
 const PHOTOS: [&str; 4] = ["png", "jpg", "jpeg", "webp"];
 /// Endings of somebody's own annotations.
 const ANNOTATIONS: [&str; 2] = ["pts", "asf"];
+
+/// What tells the points of a face from others, as a calibration keeps it.
+#[must_use]
+pub fn sum_of_face(face: &Face) -> String {
+    let line = |p: P| {
+        let at = face.points[p.index()].at;
+        format!("{p} {:.1} {:.1}\n", at.x, at.y)
+    };
+    sha256(P::fixed().map(line).collect::<String>().as_bytes())
+}
+
+/// The same of what a hand has set in a shot; none where nothing was set.
+#[must_use]
+pub fn sum_of_marks(points: &[Placed]) -> Option<String> {
+    // As exactly as the file says it, so that writing and reading it changes nothing.
+    let by_hand = points.iter().enumerate().filter(|(_, p)| p.how == How::Hand);
+    let set: String = by_hand.map(|(k, p)| format!("{k} {:.2} {:.2}\n", p.at.x, p.at.y)).collect();
+    (!set.is_empty()).then(|| sha256(set.as_bytes()))
+}
 
 /// The shots of a face's folder and what is known of their points.
 #[derive(Debug, Clone)]
@@ -47,8 +66,10 @@ impl ShotFiles {
             named: Vec::new(),
             face: None,
         };
+        // A link that leads out of the folder is not followed.
         let beside = |name: &str, endings: &[&str]| {
-            endings.iter().map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
+            let own = |ending: &&str| inside(folder, &format!("{name}.{ending}")).ok();
+            endings.iter().filter_map(own).find(|p| p.is_file())
         };
         for emotion in Emotion::ALL {
             let Some(path) = beside(emotion.name(), &PHOTOS) else { continue };
@@ -70,7 +91,7 @@ impl ShotFiles {
             let read = Face::parse(&text).map_err(|f| f.at(&face))?;
             files.named = P::fixed().map(|p| (p, read.points[p.index()].at)).collect();
             // Of the face only its points matter here: a new colour of hair makes no calibration stale.
-            files.sums.insert("face.toml".into(), sha256(format!("{:?}", files.named).as_bytes()));
+            files.sums.insert("face.toml".into(), sum_of_face(&read));
             files.face = Some(read);
         }
         match beside("neutral", &ANNOTATIONS) {
@@ -113,10 +134,15 @@ impl ShotFiles {
             if path.is_file() {
                 let text = read_text(&path)?;
                 let marks = Marks::parse(&text).map_err(|f| f.at(&path))?;
+                // Points of another photo, one that has been retaken since, say nothing of this one.
+                let photo =
+                    files.photos[i].as_ref().and_then(|p| p.file_name()).map(|n| n.to_string_lossy().into_owned());
+                if photo.is_none_or(|name| files.sums.get(&name) != Some(&marks.photo)) {
+                    continue;
+                }
                 // What was found is made of the other files and says nothing new; what a hand has set does.
-                let set: Vec<_> = marks.points.iter().enumerate().filter(|(_, p)| p.how == How::Hand).collect();
-                if !set.is_empty() {
-                    files.sums.insert(format!("{emotion}.toml"), sha256(format!("{set:?}").as_bytes()));
+                if let Some(sum) = sum_of_marks(&marks.points) {
+                    files.sums.insert(format!("{emotion}.toml"), sum);
                 }
                 files.points[i] = marks.points;
             }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::{Calibrated, CalibrationFile, ShotFiles, calibrate};
+use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
 use crate::disk::{Fault, Result, write_whole};
+use crate::photo::sha256;
 use crate::pose::Emotion;
 
 /// The name of the calibration's file.
@@ -20,6 +21,9 @@ pub struct Kept {
     pub made: Calibrated,
     /// The SHA-256 of what it was made from, by the files' names.
     pub inputs: BTreeMap<String, String>,
+    /// The points of the shots as `happy.toml` and so on keep them; none of somebody's own annotations, and of a
+    /// calibration that was read.
+    pub marks: Vec<(Emotion, Marks)>,
 }
 
 impl Kept {
@@ -30,7 +34,9 @@ impl Kept {
     pub fn make(folder: &Path) -> Result<Self> {
         let files = ShotFiles::of(folder)?;
         let made = files.inputs().and_then(|inputs| calibrate(&inputs)).map_err(|f| f.at(folder))?;
-        Ok(Self { made, inputs: files.sums })
+        let own = Emotion::ALL.into_iter().zip(&made.shots);
+        let marks = own.filter_map(|(e, points)| Some((e, files.marks(e, points.as_ref()?)?))).collect();
+        Ok(Self { made, inputs: files.sums, marks })
     }
 
     /// Reads the calibration of a face's folder; none where there is none.
@@ -42,17 +48,29 @@ impl Kept {
         if !path.is_file() {
             return Ok(None);
         }
-        let CalibrationFile { calibration, quality, inputs } = CalibrationFile::read(&path)?;
+        let CalibrationFile { calibration, quality, model: sum, inputs, .. } = CalibrationFile::read(&path)?;
         let path = folder.join(MODEL);
         let again = "run `lianpu calibrate` again";
         if !path.is_file() {
             return Err(Fault::new("the model of this calibration is missing").at(&path).help(again));
         }
         let model = Model::read(&path)?;
-        if model.count() != calibration.binding().count() {
+        if model.count() != calibration.binding().count() || sha256(&model.to_bytes()) != sum {
             return Err(Fault::new("this model is of another calibration").at(&path).help(again));
         }
-        Ok(Some(Self { made: Calibrated { calibration, model, quality, shots: Default::default() }, inputs }))
+        let made = Calibrated { calibration, model, quality, shots: Default::default() };
+        Ok(Some(Self { made, inputs, marks: Vec::new() }))
+    }
+
+    /// What `calibration.toml` holds of it.
+    #[must_use]
+    pub fn file(&self) -> CalibrationFile {
+        CalibrationFile {
+            calibration: self.made.calibration.clone(),
+            quality: self.made.quality.clone(),
+            model: sha256(&self.made.model.to_bytes()),
+            inputs: self.inputs.clone(),
+        }
     }
 
     /// Whether a folder's shots are still those that this was made from.
@@ -74,7 +92,6 @@ impl Kept {
     /// # Errors
     /// When a file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>> {
-        let files = ShotFiles::of(folder)?;
         let mut written = Vec::new();
         let mut put = |name: String, bytes: &[u8]| -> Result<()> {
             let path = folder.join(name);
@@ -85,16 +102,11 @@ impl Kept {
             written.push(path);
             Ok(())
         };
-        for (emotion, points) in Emotion::ALL.iter().zip(&self.made.shots) {
-            if let Some(marks) = points.as_ref().and_then(|points| files.marks(*emotion, points)) {
-                put(format!("{emotion}.toml"), marks.to_toml().as_bytes())?;
-            }
+        for (emotion, marks) in &self.marks {
+            put(format!("{emotion}.toml"), marks.to_toml().as_bytes())?;
         }
         put(MODEL.into(), &self.made.model.to_bytes())?;
-        let Calibrated { calibration, quality, .. } = &self.made;
-        let file =
-            CalibrationFile { calibration: calibration.clone(), quality: quality.clone(), inputs: self.inputs.clone() };
-        put(CALIBRATION.into(), file.to_toml()?.as_bytes())?;
+        put(CALIBRATION.into(), self.file().to_toml()?.as_bytes())?;
         Ok(written)
     }
 }

@@ -20,7 +20,7 @@ mod warped;
 
 pub use calibrate::{Calibrated, calibrate};
 pub use file::CalibrationFile;
-pub use files::ShotFiles;
+pub use files::{ShotFiles, sum_of_face, sum_of_marks};
 pub use inputs::{Inputs, ShotInput};
 pub use kept::{CALIBRATION, Kept};
 pub use marks::Marks;

@@ -49,7 +49,12 @@ pub(super) fn train(ground: &Ground, known: &[Option<Known>; 7]) -> Result<Model
         let moves = made_moves(ground, known);
         made.extend(moves.iter().map(|m| bent(neutral.grey, &neutral.points, &ground.on_neutral(m), scale)));
     }
-    let mut pairs: Vec<(&Grey, &[Point])> = shots.iter().map(|k| (k.grey, &k.points[..])).collect();
+    // Made pictures are many and all of one look. Taken once, the shots would be rarities among them, farther out than a
+    // fit may go; taken so often that they weigh as much, they are not.
+    let often = if shots.len() > 1 { made.len().div_ceil(shots.len()).max(1) } else { 1 };
+    let taken = shots.iter().map(|k| (k.grey, &k.points[..]));
+    let mut pairs: Vec<(&Grey, &[Point])> = (0..often).flat_map(|_| taken.clone()).collect();
     pairs.extend(made.iter().map(|(g, p)| (g, &p[..])));
-    Model::train(&pairs, &Options { made: made.len(), ..Options::of(Kind::Person) })
+    let not_new = pairs.len() - shots.len();
+    Model::train(&pairs, &Options { made: not_new, ..Options::of(Kind::Person) })
 }

@@ -32,7 +32,7 @@ pub(super) fn by_calibration(frames: &[Seen], calibration: &Calibration, notes: 
     }
     if count == calibration.binding().count() {
         return Ok(record(&frames, |f| {
-            calibration.read(&f.points, Choice::Paper).map_or(Ratios::NEUTRAL, |r| r.ratios)
+            calibration.read_apart(&f.points, Choice::NonNegative).map_or(Ratios::NEUTRAL, |r| r.ratios)
         }));
     }
     let theirs = match count {

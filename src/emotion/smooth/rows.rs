@@ -17,9 +17,19 @@ pub fn smooth_record(record: &mut Record, width: f64) {
         record.rows.iter_mut().zip(&rows).zip(smoothed(&rows, width)).map(|((a, b), c)| (a, b, c))
     {
         if new != *old {
-            row.ratios = Ratios(new).closed();
+            row.ratios = within(Ratios(new).closed(), old);
         }
     }
+}
+
+/// What was smoothed, without the ratios below 0 that a curve makes of rows that have none.
+fn within(ratios: Ratios, old: &[f64; 7]) -> Ratios {
+    if old.iter().any(|v| *v < 0.0) || ratios.0.iter().all(|v| *v >= 0.0) {
+        return ratios;
+    }
+    let kept = ratios.0.map(|v| v.max(0.0));
+    let sum: f64 = kept.iter().sum();
+    Ratios(kept.map(|v| v / sum))
 }
 
 /// Takes the noise out of tracks as [`smooth_record`] does out of ratios; gaze, lids, mouth and head each by themselves.

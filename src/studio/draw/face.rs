@@ -5,9 +5,12 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::lists::{folded, standing};
-use super::{BOLD, DIM, Pictures, cells, head, put, put_short};
+use super::{BOLD, CHOSEN, DIM, Pictures, cells, head, put, put_short};
+use crate::pose::Emotion;
+use crate::project::{FaceShot, LessonFace};
+use crate::studio::calibrating;
 use crate::studio::face_desk::{FaceDesk, told};
-use crate::studio::photo_picture::{self, CHOSEN, FOUND, RULE, SET};
+use crate::studio::photo_picture::{self, CHOSEN as CHOSEN_INK, FOUND, RULE, SET};
 use crate::studio::picture::FacePicture;
 use crate::studio::state::State;
 
@@ -20,14 +23,15 @@ pub(in crate::studio) struct FaceLayout {
 }
 
 impl FaceLayout {
-    /// The places on a screen: head and foot take a line each, the words four at the bottom.
+    /// The places on a screen: head and foot take a line each, the words five or seven at the bottom.
     pub fn of(area: Rect, desk: &FaceDesk) -> Self {
-        let top = Rect::new(area.x + 1, area.y + 1, area.width - 2, area.height - 7);
+        let rows = if area.height < 30 { 5 } else { 7 };
+        let top = Rect::new(area.x + 1, area.y + 1, area.width - 2, area.height - 3 - rows);
         let most = top.width * 2 / 5;
         let wanted = desk.figure.as_ref().map_or(most, |f| FacePicture::size_in(f, (most, top.height).into()).width);
         let cartoon = Rect { x: top.right() - wanted, width: wanted, ..top };
         let photo = Rect { width: cartoon.x - top.x - 2, ..top };
-        Self { photo, cartoon, words: Rect::new(area.x + 1, top.bottom() + 1, area.width - 2, 4) }
+        Self { photo, cartoon, words: Rect::new(area.x + 1, top.bottom() + 1, area.width - 2, rows) }
     }
 }
 
@@ -35,16 +39,26 @@ pub(super) fn face(buffer: &mut Buffer, area: Rect, state: &State, pictures: Pic
     let (Some(desk), Some(lesson)) = (&state.face, state.lesson()) else { return };
     let Some(lesson_face) = lesson.faces.get(desk.face) else { return };
     let (told_standing, style) = standing(lesson, state.colours);
-    head(buffer, area, &[&lesson.manifest.title, &lesson_face.entry.name], told_standing, style);
+    let path = [lesson.manifest.title.as_str(), &lesson_face.entry.name, desk.shot.name()];
+    head(buffer, area, &path, told_standing, style);
     let layout = FaceLayout::of(area, desk);
     match (&desk.photo, desk.stage) {
         (Some(_), Some(_)) => pictures.stage.put(buffer, layout.photo),
         (Some(photo), None) => {
-            photo_picture::put(buffer, layout.photo, photo, desk, lesson_face.face.as_ref(), state.colours);
+            photo_picture::put(buffer, layout.photo, photo, desk, &desk.points(lesson_face), state.colours);
         }
         (None, _) => {
-            let text = if lesson_face.photo.is_some() { "reading the photo…" } else { "there is no photo" };
-            put(buffer, layout.photo.x, layout.photo.y + 1, layout.photo.width, text, DIM);
+            let name = &lesson_face.entry.name;
+            let text = match (lesson_face.photo_of(desk.shot), desk.shot) {
+                (Some(_), _) => "reading the photo…".into(),
+                (None, Emotion::Neutral) => "there is no photo".into(),
+                (None, e) => format!(
+                    "There is no photo of {e}: it is modelled after everybody's face. Put this face's own there as faces/{name}/{e}.png."
+                ),
+            };
+            for (line, y) in folded(&text, layout.photo.width).iter().zip(layout.photo.y + 1..layout.photo.bottom()) {
+                put(buffer, layout.photo.x, y, layout.photo.width, line, DIM);
+            }
         }
     }
     match &desk.figure {
@@ -72,15 +86,13 @@ fn words(buffer: &mut Buffer, area: Rect, state: &State, desk: &FaceDesk) {
         put_short(buffer, area.x, area.y + 1, area.width, &at, Style::new());
         return;
     }
-    match lesson_face.face.as_ref().and_then(|f| Some((f, *f.placed(desk.point)?))) {
-        Some((face, placed)) => {
-            say(&desk.point.name(), BOLD.patch(state.colours.ink(CHOSEN)));
+    let points = desk.points(lesson_face);
+    match points.iter().find(|p| p.0 == desk.point) {
+        Some((_, placed)) => {
+            say(&desk.point.name(), BOLD.patch(state.colours.ink(CHOSEN_INK)));
             say(&format!("  {}", desk.point.meaning()), BOLD);
-            say(&format!("   x {:.1}  y {:.1}   {}", placed.at.x, placed.at.y, told(&placed)), Style::new());
-            let hand = crate::face::FeaturePoint::all()
-                .filter_map(|p| face.placed(p))
-                .filter(|p| p.how == crate::face::How::Hand)
-                .count();
+            say(&format!("   x {:.1}  y {:.1}   {}", placed.at.x, placed.at.y, told(placed)), Style::new());
+            let hand = points.iter().filter(|p| p.1.how == crate::face::How::Hand).count();
             let mut second = area.x;
             let mut note = |text: &str, style: Style| {
                 second += put_short(buffer, second, area.y + 1, area.right().saturating_sub(second), text, style);
@@ -95,19 +107,63 @@ fn words(buffer: &mut Buffer, area: Rect, state: &State, desk: &FaceDesk) {
             let mouth = desk.mouth.map_or_else(String::new, |m| format!(", mouth {}", m.letter()));
             note(&format!("   shown: {}{mouth}", desk.emotion.name()), DIM);
         }
-        None => say("no points yet: r finds them, o places them by hand", BOLD),
+        None => match lesson_face.shot(desk.shot) {
+            None => say("no points yet: r finds them, o places them by hand", BOLD),
+            Some(FaceShot { photo: None, .. }) => say(&format!("{} is modelled", desk.shot), BOLD),
+            Some(FaceShot { foreign: Some(path), .. }) => {
+                let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+                let count = desk.dots.len();
+                say(&format!("{count} points of {name}, which have no names: change them there"), BOLD);
+            }
+            Some(_) => say("no points yet: C finds them", BOLD),
+        },
     }
-    let mut y = area.y + 2;
+    shots(buffer, Rect { y: area.y + 2, height: 1, ..area }, state, desk, lesson_face);
+    let mut y = area.y + 3;
     if let Some(stage) = desk.stage.and_then(|s| desk.stages.get(s)) {
         put_short(buffer, area.x, y, area.width, &stage.0, BOLD);
         y += 1;
     }
-    for line in desk.remarks.iter().flat_map(|r| folded(&format!("! {r}"), area.width)) {
+    let file = lesson_face.calibration.as_ref().filter(|_| desk.stage.is_none());
+    if let Some(file) = file.filter(|_| !desk.is_stale) {
+        put_short(buffer, area.x, y, area.width, &calibrating::told(file, desk.shot), Style::new());
+        y += 1;
+    }
+    let of_calibration = match file {
+        Some(_) if desk.is_stale => {
+            vec!["the points were changed since the face was calibrated: C does that again".into()]
+        }
+        Some(file) => calibrating::remarks(file),
+        None if lesson_face.shots.iter().any(|s| s.photo.is_some()) => {
+            vec!["this face was never calibrated: C does that, for its own emotions and for tracking videos".into()]
+        }
+        None => Vec::new(),
+    };
+    for line in desk.remarks.iter().chain(&of_calibration).flat_map(|r| folded(&format!("! {r}"), area.width)) {
         if y >= area.bottom() {
             break;
         }
         let width = cells(&line).min(area.width);
         put_short(buffer, area.x, y, width.max(1), &line, state.colours.warning());
         y += 1;
+    }
+}
+
+/// The seven shots in a line: the one that is looked at, those that there are, those that are modelled.
+fn shots(buffer: &mut Buffer, area: Rect, state: &State, desk: &FaceDesk, face: &LessonFace) {
+    let mut x = area.x;
+    for emotion in Emotion::ALL {
+        let is_there = face.photo_of(emotion).is_some();
+        let sign = if is_there { "●" } else { "○" };
+        let here = if emotion == desk.shot { CHOSEN } else { Style::new() };
+        let ink = if is_there { state.colours.of_emotion(emotion) } else { DIM };
+        x += put(buffer, x, area.y, area.right().saturating_sub(x), sign, ink);
+        let room = area.right().saturating_sub(x);
+        x += put(buffer, x, area.y, room, emotion.name(), here.patch(if is_there { Style::new() } else { DIM }));
+        x += 2;
+    }
+    let missing = Emotion::ALL.iter().filter(|e| face.photo_of(**e).is_none()).count();
+    if missing > 0 {
+        put_short(buffer, x, area.y, area.right().saturating_sub(x), "○ no photo", DIM);
     }
 }

@@ -103,7 +103,7 @@ fn rank(hint: &str) -> u8 {
         "align" | "look at" => 5,
         "export" => 6,
         "zoom" => 7,
-        "tap" | "mark" | "drop" => 8,
+        "tap" | "mark" | "drop" | "go to" => 8,
         _ => 2,
     }
 }

@@ -16,8 +16,8 @@ const NAMES: u16 = 9;
 /// Cells right of the lanes, for the letters of the curves.
 const LETTERS: u16 = 5;
 
-/// Columns that the panel keeps beside the video.
-const PANEL: u16 = 38;
+/// Columns that the panel keeps beside the video: a ratio's name, its number and a short bar.
+const PANEL: u16 = 26;
 
 /// Rows from which on there is room for every lane of keys, and for wave and spectrogram both.
 const TALL: u16 = 26;

@@ -7,6 +7,7 @@ use ratatui::style::{Color, Modifier, Style};
 use super::{
     BOLD, DIM, Layout, bars, cells, curves, head, keyrows, lists, phones, put, said, sound, spectrum, tap, tone,
 };
+use crate::project::{Clip, Concern};
 use crate::studio::Lane;
 use crate::studio::editor::Editor;
 use crate::studio::photo_picture;
@@ -36,6 +37,7 @@ pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face
     }
     let on = |lane| editor.lane == lane;
     ruler(buffer, layout, editor);
+    lost(buffer, layout, editor, clip, state);
     if let Some(tapping) = &editor.tapping {
         tap::marks(buffer, layout, state, editor, tapping);
     }
@@ -100,6 +102,20 @@ fn ruler(buffer: &mut Buffer, layout: &Layout, editor: &Editor) {
             }
         }
         number += 1.0;
+    }
+}
+
+/// Stretches of the video without a face, on the ruler too: on low screens the curves cover their marks.
+fn lost(buffer: &mut Buffer, layout: &Layout, editor: &Editor, clip: &Clip, state: &State) {
+    let (row, columns) = (layout.ruler, layout.columns());
+    for doubt in clip.lost().into_iter().filter(|d| d.what == Concern::FaceLost) {
+        let (start, end) = (editor.window.column(doubt.start, columns), editor.window.column(doubt.end, columns));
+        for column in start.max(0)..end.max(start + 1).min(i32::from(columns)) {
+            let x = row.x + column as u16;
+            if buffer.cell((x, row.y)).is_some_and(|cell| cell.symbol() == " ") {
+                put(buffer, x, row.y, 1, "░", state.colours.warning());
+            }
+        }
     }
 }
 

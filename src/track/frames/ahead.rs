@@ -80,6 +80,10 @@ impl Iterator for Frames {
         if !self.ended {
             return item;
         }
+        // A decoder that broke off is no end of the video.
+        if item.is_none() && self.decoder.take().is_some_and(|d| d.join().is_err()) {
+            return Some(Err(Fault::new("a frame could not be decoded").help("save the frames again as PNG or JPEG")));
+        }
         // What the program that wrote the stream says is nearer to the cause than where it stopped.
         let said = self.running.as_ref().and_then(|r| {
             let mut running = r.lock().unwrap_or_else(PoisonError::into_inner);
