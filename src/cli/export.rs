@@ -12,7 +12,7 @@ use super::output_fault;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::export::{
-    Format, FrameSet, Progress, Request, Shard, Written, plan, run as run_jobs, wholes, write_wholes,
+    Dedupe, Format, FrameSet, Progress, Request, Shard, Written, plan, run as run_jobs, wholes, write_wholes,
 };
 use crate::project::Lesson;
 
@@ -51,6 +51,10 @@ pub struct Args {
     /// #rrggbb, white, black or transparent.
     #[arg(long, value_name = "COLOR")]
     background: Option<Colour>,
+    /// What is done about frames that are equal: link makes them one file under several names, copy copies, none makes
+    /// each by itself.
+    #[arg(long, value_name = "link|copy|none", default_value = "link", hide_default_value = true)]
+    dedupe: Dedupe,
     /// Animated SVG with a group for every frame, as the thesis writes it; ten times as large.
     #[arg(long)]
     thesis: bool,
@@ -77,6 +81,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         size: args.size,
         fps: args.fps,
         background: args.background.map(|c| if c.a == 0 { None } else { Some(c) }),
+        dedupe: args.dedupe,
         jobs: args.jobs.into(),
         thesis: args.thesis,
     };

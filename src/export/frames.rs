@@ -67,6 +67,24 @@ impl Shard {
         self.index == 1
     }
 
+    /// Part `index` of `count`; none where there is no such part.
+    #[must_use]
+    pub fn new(index: u32, count: u32) -> Option<Self> {
+        (1 <= index && index <= count).then_some(Self { index, count })
+    }
+
+    /// Which part, counted from 1.
+    #[must_use]
+    pub const fn index(self) -> u32 {
+        self.index
+    }
+
+    /// Of how many.
+    #[must_use]
+    pub const fn count(self) -> u32 {
+        self.count
+    }
+
     /// This shard's part of a list: neighbouring items, so that what repeats from frame to frame stays together.
     #[must_use]
     pub fn of<T: Copy>(self, list: &[T]) -> Vec<T> {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Format, FrameSet, Shard, captions, poses, said};
+use super::{Dedupe, Format, FrameSet, Shard, captions, poses, said};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::Figure;
@@ -31,6 +31,8 @@ pub struct Request {
     pub fps: Option<f64>,
     /// Instead of the figure's background; `Some(None)` is transparent.
     pub background: Option<Option<Colour>>,
+    /// What is done about frames that are equal.
+    pub dedupe: Dedupe,
     /// Threads; 0 for as many as there are processors.
     pub jobs: usize,
     /// Animated SVG as the thesis writes it: a group a frame (thesis 7.3.2).
@@ -51,6 +53,7 @@ impl Request {
             size: None,
             fps: None,
             background: None,
+            dedupe: Dedupe::default(),
             jobs: 0,
             thesis: false,
         }
@@ -76,6 +79,8 @@ pub struct Job {
     pub size: [u32; 2],
     /// Instead of the figure's background.
     pub background: Option<Option<Colour>>,
+    /// What is done about frames that are equal.
+    pub dedupe: Dedupe,
     /// Frame forms.
     pub formats: Vec<Format>,
     /// Whole files: where, and what is in them.
@@ -84,6 +89,14 @@ pub struct Job {
     pub timeline: Timeline,
     /// The figure that draws it.
     pub figure: Figure,
+}
+
+impl Job {
+    /// The file of a frame.
+    #[must_use]
+    pub fn path_of(&self, frame: u32, format: Format) -> PathBuf {
+        self.folder.join(format!("{frame:06}.{}", format.name()))
+    }
 }
 
 /// Works out the jobs of an export, one a clip. Nothing is written yet.
@@ -172,6 +185,7 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
         count,
         size: output.size,
         background: request.background,
+        dedupe: request.dedupe,
         texts,
         formats: request.formats.iter().copied().filter(|f| f.is_frames()).collect(),
         timeline,
