@@ -8,6 +8,9 @@ use crate::emotion::{LprWriter, Moment, MouthMoves, Record, Row, TrackRow};
 use crate::project::Clip;
 use crate::timeline::Timeline;
 
+/// Frames of a packet of the compact record: as a file it is smallest so.
+const FRAMES: u32 = 64;
+
 /// What the score gives at every frame: the author's keys and edits are in it.
 fn record(clip: &Clip, timeline: &Timeline) -> Record {
     let row = |frame: u32| {
@@ -33,7 +36,7 @@ pub(super) fn tables(clip: &Clip, timeline: &Timeline, base: &Path) -> Vec<File>
 /// When it cannot be written.
 pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<Vec<File>> {
     let mut bytes = Vec::new();
-    let mut writer = LprWriter::new(&mut bytes, timeline.fps(), true)?;
+    let mut writer = LprWriter::new(&mut bytes, timeline.fps(), true)?.in_packets_of(FRAMES);
     for row in record(clip, timeline).rows {
         let pose = timeline.pose(row.time);
         let mouth = MouthMoves {
@@ -53,5 +56,6 @@ pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<V
         };
         writer.push(&Moment { row, track: Some(track) })?;
     }
+    writer.finish()?;
     Ok(vec![File { path: super::with_ending(base, "lpr"), bytes }])
 }
