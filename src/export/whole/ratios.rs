@@ -4,12 +4,9 @@ use std::path::Path;
 
 use super::File;
 use crate::disk::Result;
-use crate::emotion::{LprWriter, Moment, MouthMoves, Record, Row, TrackRow};
+use crate::emotion::{MouthMoves, Record, Row, TrackRow, Tracks, to_lpr};
 use crate::project::Clip;
 use crate::timeline::Timeline;
-
-/// Frames of a packet of the compact record: as a file it is smallest so.
-const FRAMES: u32 = 64;
 
 /// What the score gives at every frame: the author's keys and edits are in it.
 fn record(clip: &Clip, timeline: &Timeline) -> Record {
@@ -33,11 +30,10 @@ pub(super) fn tables(clip: &Clip, timeline: &Timeline, base: &Path) -> Vec<File>
 /// The compact record, with eyes, mouth and head.
 ///
 /// # Errors
-/// When it cannot be written.
+/// When a value in it cannot be.
 pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<Vec<File>> {
-    let mut bytes = Vec::new();
-    let mut writer = LprWriter::new(&mut bytes, timeline.fps(), true)?.in_packets_of(FRAMES);
-    for row in record(clip, timeline).rows {
+    let record = record(clip, timeline);
+    let track = |row: &Row| {
         let pose = timeline.pose(row.time);
         let mouth = MouthMoves {
             up: -pose.mouth.upper,
@@ -45,7 +41,7 @@ pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<V
             left: -pose.mouth.corner_in,
             right: -pose.mouth.corner_in,
         };
-        let track = TrackRow {
+        TrackRow {
             frame: row.frame,
             time: row.time,
             gaze: pose.gaze,
@@ -53,9 +49,9 @@ pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<V
             mouth,
             head: pose.head,
             confidence: row.confidence,
-        };
-        writer.push(&Moment { row, track: Some(track) })?;
-    }
-    writer.finish()?;
+        }
+    };
+    let tracks = Tracks { rows: record.rows.iter().map(track).collect() };
+    let bytes = to_lpr(&record, Some(&tracks), timeline.fps())?;
     Ok(vec![File { path: super::with_ending(base, "lpr"), bytes }])
 }
