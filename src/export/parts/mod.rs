@@ -14,6 +14,7 @@ use std::sync::Arc;
 pub(super) use mark::{Mark, Path, STEPS};
 pub(super) use survey::{ABSENT, Move, Survey, Tracked};
 
+use super::repeats::rounded;
 use crate::drawing::{Colour, Drawing, fit};
 use crate::figure::Figure;
 use crate::geometry::Rect;
@@ -106,8 +107,8 @@ pub(super) fn survey(figure: &Figure, poses: impl Iterator<Item = Pose>, grid: &
     let mut survey = Survey::new(grid.scale, near);
     let mut last: Option<Pose> = None;
     for pose in poses {
-        // The shape is a name, and not drawn.
-        let bare = Pose { shape: None, ..pose };
+        // As frames show it; the shape is a name, and not drawn.
+        let bare = Pose { shape: None, ..rounded(&pose) };
         if last.as_ref() == Some(&bare) {
             survey.repeat();
         } else {

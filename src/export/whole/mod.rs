@@ -3,6 +3,7 @@
 
 mod base64;
 mod epub;
+mod flac;
 mod html;
 mod layers;
 mod lottie;
@@ -290,7 +291,7 @@ impl<'a> Workshop<'a> {
         }
         let own = self.lesson.clips[clip].sound_path.as_deref().and_then(sound::own);
         if own.is_none() {
-            notes.push("there is no `ffmpeg`, and books take no WAV: the book has no sound".to_owned());
+            notes.push("there is no `ffmpeg`, and books take no FLAC: the book has no sound".to_owned());
         }
         Ok(own)
     }
@@ -313,7 +314,7 @@ impl<'a> Workshop<'a> {
             return Ok(Some(Rc::clone(sound)));
         }
         let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
-        let (encoded, note) = sound::encoded(sound, self.encoder.as_deref())?;
+        let (encoded, note) = sound::encoded(sound, self.encoder.as_deref());
         let encoded = Rc::new(encoded);
         notes.extend(note);
         self.sounds.push((clip, Rc::clone(&encoded)));

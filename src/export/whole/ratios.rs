@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::File;
 use crate::disk::Result;
-use crate::emotion::{LprWriter, Moment, MouthMoves, Record, Row, TrackRow};
+use crate::emotion::{MouthMoves, Record, Row, TrackRow, Tracks, to_lpr};
 use crate::project::Clip;
 use crate::timeline::Timeline;
 
@@ -30,11 +30,10 @@ pub(super) fn tables(clip: &Clip, timeline: &Timeline, base: &Path) -> Vec<File>
 /// The compact record, with eyes, mouth and head.
 ///
 /// # Errors
-/// When it cannot be written.
+/// When a value in it cannot be.
 pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<Vec<File>> {
-    let mut bytes = Vec::new();
-    let mut writer = LprWriter::new(&mut bytes, timeline.fps(), true)?;
-    for row in record(clip, timeline).rows {
+    let record = record(clip, timeline);
+    let track = |row: &Row| {
         let pose = timeline.pose(row.time);
         let mouth = MouthMoves {
             up: -pose.mouth.upper,
@@ -42,7 +41,7 @@ pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<V
             left: -pose.mouth.corner_in,
             right: -pose.mouth.corner_in,
         };
-        let track = TrackRow {
+        TrackRow {
             frame: row.frame,
             time: row.time,
             gaze: pose.gaze,
@@ -50,8 +49,9 @@ pub(super) fn compact(clip: &Clip, timeline: &Timeline, base: &Path) -> Result<V
             mouth,
             head: pose.head,
             confidence: row.confidence,
-        };
-        writer.push(&Moment { row, track: Some(track) })?;
-    }
+        }
+    };
+    let tracks = Tracks { rows: record.rows.iter().map(track).collect() };
+    let bytes = to_lpr(&record, Some(&tracks), timeline.fps())?;
     Ok(vec![File { path: super::with_ending(base, "lpr"), bytes }])
 }

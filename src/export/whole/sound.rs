@@ -55,15 +55,18 @@ pub(super) fn wav(sound: &Sound) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::with_capacity(44 + 2 * sound.samples.len()));
     let written = (|| {
         let mut writer = hound::WavWriter::new(&mut bytes, spec)?;
-        for sample in &sound.samples {
-            // What was read from 16 bits goes back to the same 16 bits.
-            let whole = (f64::from(*sample) * 32_768.0).round().clamp(-32_768.0, 32_767.0);
-            writer.write_sample(whole as i16)?;
+        for sample in whole(sound) {
+            writer.write_sample(sample)?;
         }
         writer.finalize()
     })();
     written.map_err(|e| Fault::new(format!("the sound cannot be written as WAV: {e}")))?;
     Ok(bytes.into_inner())
+}
+
+/// Samples of 16 bits: what was read from such goes back to the same.
+fn whole(sound: &Sound) -> impl Iterator<Item = i16> + '_ {
+    sound.samples.iter().map(|s| (f64::from(*s) * 32_768.0).round().clamp(-32_768.0, 32_767.0) as i16)
 }
 
 /// The encoder that is there: `ffmpeg` on the path.
@@ -73,18 +76,18 @@ pub(super) fn encoder() -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// The sound as MP3, which every browser and reading system plays; as FLAC or WAV where there is no encoder or it
-/// fails, and then why, in a line.
-///
-/// # Errors
-/// When it cannot be written at all.
-pub(super) fn encoded(sound: &Sound, encoder: Option<&Path>) -> Result<(Encoded, Option<String>)> {
+/// The sound as MP3, which every browser and reading system plays; as FLAC, which is larger, where there is no encoder
+/// or it fails, and then why, in a line.
+pub(super) fn encoded(sound: &Sound, encoder: Option<&Path>) -> (Encoded, Option<String>) {
     let why = match encoder.map(|program| mp3(sound, program)) {
-        Some(Ok(bytes)) => return Ok((Encoded { mime: "audio/mpeg", extension: "mp3", bytes }, None)),
-        Some(Err(fault)) => format!("{}; the sound is written as WAV, which is larger", fault.what()),
-        None => "there is no `ffmpeg`; the sound is written as WAV, which is larger".to_owned(),
+        Some(Ok(bytes)) => return (Encoded { mime: "audio/mpeg", extension: "mp3", bytes }, None),
+        Some(Err(fault)) => fault.what().to_owned(),
+        None => "there is no `ffmpeg`".to_owned(),
     };
-    Ok((Encoded { mime: "audio/wav", extension: "wav", bytes: wav(sound)? }, Some(why)))
+    let samples: Vec<i16> = whole(sound).collect();
+    let bytes = super::flac::flac(&samples, sound.rate);
+    let note = format!("{why}; the sound is written as FLAC, which is larger than MP3");
+    (Encoded { mime: "audio/flac", extension: "flac", bytes }, Some(note))
 }
 
 /// Through files, because the length that makes a player exact stands at the beginning of an MP3 and is known at its

@@ -129,7 +129,9 @@ fn placed(item: &Tracked, film: &Film<'_>) -> String {
     let turn = |m: &Move| format!("[{}]", f64::from(m.turn) / 1000.0);
     let place = keyed(&keys.iter().map(|(t, m)| (*t, at(m))).collect::<Vec<_>>());
     let turn = keyed(&keys.iter().map(|(t, m)| (*t, turn(m))).collect::<Vec<_>>());
-    format!("{{\"o\":{{\"a\":0,\"k\":100}},\"a\":{{\"a\":0,\"k\":[0,0,0]}},\"p\":{place},\"r\":{turn},\"s\":{{\"a\":0,\"k\":[12.5,12.5,100]}}}}")
+    format!(
+        "{{\"o\":{{\"a\":0,\"k\":100}},\"a\":{{\"a\":0,\"k\":[0,0,0]}},\"p\":{place},\"r\":{turn},\"s\":{{\"a\":0,\"k\":[12.5,12.5,100]}}}}"
+    )
 }
 
 /// A property whose values, each an array in JSON, are held from key to key; keys that change nothing are left out.
