@@ -176,6 +176,69 @@ fn a_talking_man_is_followed_without_loss_and_steadily() {
     assert!(tremble <= 0.09, "{tremble}");
 }
 
+/// How far the dips of an opening go: at each instant that is the least within 5 frames and lies `deep` or more below the
+/// greatest on both sides, the depth of it in `held` as a share of that in `raw`; and how many there are.
+fn depth_kept(raw: &[f64], held: &[f64], deep: f64) -> (f64, usize) {
+    let (mut whole, mut kept, mut count) = (0.0, 0.0, 0);
+    for t in 6..raw.len() - 6 {
+        let around = t - 5..t + 6;
+        let least = raw[around.clone()].iter().copied().fold(f64::MAX, f64::min);
+        let rim = |v: &[f64]| {
+            let most = |r: std::ops::Range<usize>| v[r].iter().copied().fold(f64::MIN, f64::max);
+            most(t - 6..t).min(most(t + 1..t + 7))
+        };
+        let depth = rim(raw) - raw[t];
+        if raw[t] > least || depth < deep {
+            continue;
+        }
+        whole += depth;
+        kept += rim(held) - held[around].iter().copied().fold(f64::MAX, f64::min);
+        count += 1;
+    }
+    (kept / whole, count)
+}
+
+#[test]
+fn blinks_and_closures_of_the_lips_outlast_the_holding() {
+    let Some(folder) = test_data::find("faces/franck") else { return };
+    let shots: Vec<_> = ["0075", "0260", "0565", "1080", "1090", "1095", "1195"]
+        .iter()
+        .map(|name| load(&folder.join("calibration"), name, "pts"))
+        .collect();
+    let model = trained(&shots, Kind::Person, false);
+    let mut fitters = [Fitter::new(&model), Fitter::new(&model)];
+    let mut fits: [Vec<Fit>; 2] = [Vec::new(), Vec::new()];
+    let start = &shots[0].1;
+    for n in 0..1241 {
+        let grey = Grey::read(&folder.join(format!("frames/{n:04}.jpg"))).unwrap();
+        for (held, (fitter, fits)) in fitters.iter_mut().zip(&mut fits).enumerate() {
+            let fit = match fits.last() {
+                Some(before) if held == 1 => fitter.follow(&grey, before),
+                Some(before) => fitter.fit(&grey, Start::Near(&before.points)),
+                None => fitter.fit(&grey, Start::Points(start)),
+            };
+            fits.push(fit);
+        }
+    }
+    let across = |f: &Fit, pairs: &[(usize, usize)]| {
+        let pupils = f.points[36].midpoint(f.points[39]).distance(f.points[42].midpoint(f.points[45]));
+        let sum: f64 = pairs.iter().map(|(a, b)| f.points[*a].distance(f.points[*b])).sum();
+        sum / pairs.len() as f64 / pupils
+    };
+    let lids = [(37, 41), (38, 40), (43, 47), (44, 46)];
+    let lips = [(61, 67), (62, 66), (63, 65)];
+    let of = |k: usize, pairs: &[(usize, usize)]| fits[k].iter().map(|f| across(f, pairs)).collect::<Vec<_>>();
+    let (blinks, how_many) = depth_kept(&of(0, &lids), &of(1, &lids), 0.02);
+    let (closures, how_often) = depth_kept(&of(0, &lips), &of(1, &lips), 0.02);
+    println!(
+        "{:.1} % of {how_many} blinks' depth kept, {:.1} % of {how_often} closures'",
+        100.0 * blinks,
+        100.0 * closures
+    );
+    assert!(how_many >= 3 && how_often >= 5);
+    assert!(blinks >= 0.95 && closures >= 0.95);
+}
+
 #[test]
 fn a_start_out_of_its_mind_gives_no_confidence_and_no_nan() {
     let Some(folder) = test_data::find("faces/imm_frontal") else { return };

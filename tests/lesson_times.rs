@@ -23,7 +23,7 @@ fn lesson(script: &str) -> (tempfile::TempDir, PathBuf) {
     std::fs::write(&path, script).unwrap();
     let root = folder.path().join("hello");
     let new = NewLesson { speech: Some(recording()), script: Some(path), ..NewLesson::default() };
-    create(&root, &new).unwrap();
+    create(&root, &new, &mut |_, _| true).unwrap();
     (folder, root)
 }
 
@@ -149,7 +149,7 @@ fn with_times(timing: &Timing, script: &str) -> Lesson {
     std::fs::write(&times, lianpu::timing::write(timing, lianpu::timing::Format::TextGrid)).unwrap();
     std::fs::write(&text, script).unwrap();
     let new = NewLesson { timing: Some(times), script: Some(text), ..NewLesson::default() };
-    create(&folder.path().join("hello"), &new).unwrap().lesson
+    create(&folder.path().join("hello"), &new, &mut |_, _| true).unwrap().lesson
 }
 
 /// A tier: its name, and when each label starts and ends.
@@ -384,7 +384,7 @@ fn a_recording_alone_becomes_a_lesson_whose_words_are_typed_onto_what_is_heard()
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path().join("hello");
     let new = NewLesson { speech: Some(recording()), ..NewLesson::default() };
-    create(&root, &new).unwrap();
+    create(&root, &new, &mut |_, _| true).unwrap();
     let mut lesson = Lesson::open(&root).unwrap();
     let sound = lesson.clips[0].sound.clone().unwrap();
     let places = lianpu::speech::nuclei(&sound).syllables;

@@ -56,7 +56,7 @@ fn count(folder: &str, wanted: impl Fn(&str) -> bool) -> Option<Count> {
             script: Some(folder.join(format!("{name}.lab"))),
             ..NewLesson::default()
         };
-        let made = create(&lessons.path().join(&name), &new).unwrap();
+        let made = create(&lessons.path().join(&name), &new, &mut |_, _| true).unwrap();
         let timeline = made.lesson.timeline(0, Some(FPS));
         let frames: Vec<(f64, bool)> = (0..timeline.frames())
             .map(|k| {

@@ -595,3 +595,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_mouth_that_was_measured_is_drawn_as_measured_whatever_the_emotion_opens() {
+    let neutral = average();
+    let m = unit(&neutral);
+    for emotion in Emotion::ALL {
+        for (upper, lower, corner_in) in [(0.0, 0.0, 0.0), (-0.1, 0.5, 0.05), (-0.2, 1.1, -0.1)] {
+            let mouth = MouthPose { upper, lower, corner_in, speaking: 2.0, ..MouthPose::REST };
+            let drawn = neutral.pose(&Pose { mouth, ..felt(emotion) }).mouth;
+            assert!(
+                (drawn.gap() - (lower - upper) * m).abs() < 1e-9,
+                "{emotion:?}: {} {}",
+                drawn.gap(),
+                (lower - upper) * m
+            );
+        }
+    }
+}

@@ -306,3 +306,59 @@ fn without_a_terminal_the_program_prints_its_help() {
     assert!(output.status.success());
     assert!(String::from_utf8_lossy(&output.stdout).contains("Usage"));
 }
+
+/// The program in a terminal with standard input from a shell's pipe.
+fn piped(folder: &Path, producer: &str, more: &str) -> Terminal {
+    let mut command = CommandBuilder::new("sh");
+    command.cwd(folder);
+    command.args([
+        "-c",
+        &format!("{producer} | '{}' play --ratios - {more}; echo \"exit $?\"", env!("CARGO_BIN_EXE_lianpu")),
+    ]);
+    Terminal::of(command, 80, 24, &[])
+}
+
+#[test]
+fn a_record_is_drawn_as_it_arrives_ends_with_its_pipe_and_says_when_it_was_cut() {
+    use lianpu::emotion::{LprWriter, Moment, Row};
+    use lianpu::pose::{Emotion, Ratios};
+    let dir = tempfile::tempdir().unwrap();
+    let moment = |n: u32| Moment {
+        row: Row {
+            frame: n,
+            time: f64::from(n) * 0.04,
+            ratios: Ratios::some(Emotion::Happy, f64::from(n) / 40.0),
+            confidence: 1.0,
+        },
+        track: None,
+    };
+    let mut writer = LprWriter::new(Vec::new(), 25.0, false).unwrap();
+    for n in 0..40 {
+        writer.push(&moment(n)).unwrap();
+    }
+    let bytes = writer.finish().unwrap();
+    std::fs::write(dir.path().join("first.lpr"), &bytes[..bytes.len() / 2]).unwrap();
+    std::fs::write(dir.path().join("rest.lpr"), &bytes[bytes.len() / 2..]).unwrap();
+    std::fs::write(dir.path().join("cut.lpr"), &bytes[..bytes.len() - 5]).unwrap();
+    // Whoever records pauses for good: what came is drawn, and keys come from the terminal.
+    let mut terminal = piped(dir.path(), "(cat first.lpr; sleep 30; cat rest.lpr)", "--figure cat");
+    terminal.until("the first half", |s| s.contains("s, arriving") && !s.contains("0.00 s"));
+    terminal.send(" ");
+    terminal.until("it stopped", |s| s.contains("stopped"));
+    terminal.send("q");
+    let start = Instant::now();
+    while !terminal.is_given_back() {
+        assert!(start.elapsed() < Duration::from_secs(5), "q leaves although the pipe is open");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    drop(terminal.child.kill());
+    // A whole record ends by itself, and a cut one says so.
+    let mut terminal = piped(dir.path(), "cat first.lpr rest.lpr", "");
+    terminal.until("the end", |s| s.contains("exit 0"));
+    assert!(terminal.ends() && terminal.is_given_back());
+    let mut terminal = piped(dir.path(), "cat cut.lpr", "");
+    terminal.until("the damage", |s| s.contains("exit 1"));
+    let screen = terminal.screen().replace('\n', " ");
+    assert!(screen.contains("cut off after frame 39") && screen.contains("40 frames were played"), "{screen}");
+    assert!(terminal.ends());
+}

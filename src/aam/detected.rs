@@ -2,6 +2,7 @@
 //! about those, learned from the training pictures in which it finds the face.
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use super::grey::Grey;
 use super::pose::Similarity;
@@ -27,21 +28,20 @@ const DOUBT: f64 = 0.02 * 0.02;
 impl Detected {
     /// Learns from pictures with their points; none where no face is found in any of them.
     pub fn learned(shapes: &Shapes, shots: &[(&Grey, &[Point])]) -> Option<Self> {
-        let mut seen = Vec::new();
-        for (grey, points) in shots {
-            let Ok(found) = find(&grey.to_photo(), &[]) else { continue };
-            let Some((frame, places)) = framed(&found) else { continue };
+        let one = |(grey, points): &(&Grey, &[Point])| {
+            let found = find(&grey.to_photo(), &[]).ok()?;
+            let (frame, places) = framed(&found)?;
+            let (q, along) = shapes.describe(&points.iter().map(|p| frame.undo(*p)).collect::<Vec<_>>())?;
             // A face that was found elsewhere than where it is marked teaches nothing.
-            let Some((q, along)) = shapes.describe(&points.iter().map(|p| frame.undo(*p)).collect::<Vec<_>>()) else {
-                continue;
-            };
             if !(0.8..4.0).contains(&q.scale()) || q.at.to_vec2().hypot() > 1.5 {
-                continue;
+                return None;
             }
             let mut target = vec![q.a, q.b, q.at.x, q.at.y];
             target.extend(along);
-            seen.push((places, target));
-        }
+            Some((places, target))
+        };
+        // Side by side, and in the order of the pictures whoever is done first.
+        let seen: Vec<_> = shots.par_iter().map(one).collect::<Vec<_>>().into_iter().flatten().collect();
         let n = seen.len();
         let columns = seen.first()?.0.len();
         let targets = seen.first()?.1.len();

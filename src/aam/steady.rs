@@ -2,17 +2,20 @@
 //!
 //! The noise of a camera and of its packing makes a fit tremble by a few hundredths of a pixel. Each number of the pose and
 //! of the shape takes of its change `d` the share `d² / (d² + s²)`, where `s` is how far it trembles: as Wiener's filter
-//! would that expects changes as large as the one at hand. A blink or a plosive changes by a hundred times `s` and passes
-//! within the frame; nothing lags.
+//! would that expects changes as large as the one at hand. A blink or a plosive moves few points, and each number of the
+//! shape by little: where the shape as a whole changes, all its numbers are let go. Measured on 1241 frames of a man
+//! talking, 97 % of the depth of lips that close is kept, 96 % of blinks', and a third of the trembling is gone.
 
 use super::fit::Fit;
 use super::pose::Similarity;
 use super::shape::Shapes;
 use crate::geometry::Point;
 
-/// How far a number trembles: the root mean square by which it moves the points, in widths of the mean shape.
-/// Measured on 1241 frames of a man talking.
-const TREMBLE: f64 = 0.0023;
+/// How far a number of the pose trembles, and one of the shape: the root mean square by which it moves the points, in widths
+/// of the mean shape. And how far the shape's numbers together do.
+const POSE: f64 = 0.004;
+const SHAPE: f64 = 0.0013;
+const WHOLE: f64 = 0.0028;
 
 /// Holds what has hardly changed since the frame before.
 pub(super) fn steadied(shapes: &Shapes, before: &Fit, fit: &mut Fit) {
@@ -20,19 +23,20 @@ pub(super) fn steadied(shapes: &Shapes, before: &Fit, fit: &mut Fit) {
     let count = shapes.count() as f64;
     let radius = (shapes.mean().iter().map(|p| p.to_vec2().hypot2()).sum::<f64>() / count).sqrt();
     let scale = before.q.scale().max(1e-9);
-    // A number that moves the points by `per` a unit.
-    let held = |from: f64, to: f64, per: f64| {
-        let (by, tremble) = (to - from, TREMBLE / per);
-        from + by * (by * by / (by * by + tremble * tremble))
-    };
+    let share = |square: f64| square / (square + 1.0);
+    // A number of the pose that moves the points by `per` a unit.
+    let held = |from: f64, to: f64, per: f64| from + (to - from) * share(((to - from) * per / POSE).powi(2));
     let (q, last) = (fit.q, before.q);
     let a = held(last.a, q.a, radius / scale);
     let b = held(last.b, q.b, radius / scale);
     let x = held(last.at.x, q.at.x, 1.0 / scale);
     let y = held(last.at.y, q.at.y, 1.0 / scale);
     fit.q = Similarity { a, b, at: Point::new(x, y) };
+    let moved = fit.p.iter().zip(&before.p).map(|(p, last)| (p - last).powi(2)).sum::<f64>() / count;
+    let whole = moved / (WHOLE * WHOLE);
     for (p, last) in fit.p.iter_mut().zip(&before.p) {
-        *p = held(*last, *p, 1.0 / count.sqrt());
+        let by = *p - last;
+        *p = last + by * share((by * by / (count * SHAPE * SHAPE)).max(whole));
     }
     let q = fit.q;
     fit.points = shapes.shape(&fit.p).into_iter().take(fit.points.len()).map(|p| q.apply(p)).collect();

@@ -303,8 +303,8 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
 /// Finds the times that a lesson lacks, in memory only, for a command that reads it; what it did is said.
 pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
     let wanted: Vec<usize> = clips.iter().copied().filter(|n| lesson.clips[*n].wants_alignment()).collect();
-    let Ok(job) = AlignJob::of(lesson, &wanted) else { return };
-    for (number, found) in job.run() {
+    let found = AlignJob::of(lesson, &wanted).map(|job| job.run()).unwrap_or_default();
+    for (number, found) in found {
         let name = lesson.clips[number].entry.name.clone();
         match found {
             Ok(found) => {
@@ -314,4 +314,5 @@ pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
             Err(fault) => eprintln!("note: the times of clip {name} are guessed: {fault}"),
         }
     }
+    super::track::find_missing(lesson, clips);
 }

@@ -3,17 +3,23 @@
 
 mod aam;
 mod align;
+mod calibrate;
 mod check;
 mod completions;
 mod convert;
 mod export;
 mod face;
+mod farm;
+mod frames_done;
+mod live;
+mod merge;
 mod new;
 mod play;
 mod plot;
 mod studio;
 mod syllables;
 mod times;
+mod track;
 
 use std::io::Write;
 
@@ -43,8 +49,16 @@ enum Command {
     Check(check::Args),
     /// Write lessons as frames and subtitles.
     Export(export::Args),
+    /// Join the parts of an export that was divided among machines.
+    Merge(merge::Args),
+    /// Print the job that exports lessons on many machines.
+    Farm(farm::Args),
     /// Find the points of a face in its photo, for its cartoon.
     Face(face::Args),
+    /// Learn a person's seven emotions from photos, for videos of that person.
+    Calibrate(calibrate::Args),
+    /// Follow the face in videos: seven ratios, eyes, mouth and head of every frame.
+    Track(track::Args),
     /// Train, fit and look at active appearance models of faces.
     Aam(aam::Args),
     /// Play a clip's face in the terminal.
@@ -88,6 +102,16 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
     paths.iter().flat_map(of).collect()
 }
 
+/// The calibration of a face's folder.
+pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
+    match crate::emotion::Kept::read(folder)? {
+        Some(kept) => Ok(kept.made.calibration),
+        None => {
+            Err(Fault::new("the face is not calibrated yet").at(folder).help("`lianpu calibrate PROJECT` does that"))
+        }
+    }
+}
+
 /// Runs one call of the program.
 ///
 /// # Errors
@@ -98,7 +122,11 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::Align(args)) => align::run(args, out),
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
+        Some(Command::Merge(args)) => merge::run(args, out),
+        Some(Command::Farm(args)) => farm::run(args, out),
         Some(Command::Face(args)) => face::run(args, out),
+        Some(Command::Calibrate(args)) => calibrate::run(args, out),
+        Some(Command::Track(args)) => track::run(args, out),
         Some(Command::Aam(args)) => aam::run(args, out),
         Some(Command::Play(args)) => play::run(args),
         Some(Command::Plot(args)) => plot::run(args, out),

@@ -3,12 +3,14 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use super::frames_done::FramesDone;
 use super::output_fault;
 use crate::disk::Result;
+use crate::pose::Emotion;
 use crate::project::{Made, NewLesson, create};
 use crate::script::System;
 
-/// Make a lesson from a photo, a recording and its script, from times, or from ratios.
+/// Make a lesson from a photo, a recording and its script, from a video, from times, or from ratios.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The folder to make; its last part names the lesson and its clip.
@@ -29,12 +31,25 @@ pub struct Args {
     /// A ratio record, ratios.csv.
     #[arg(long, value_name = "FILE")]
     ratios: Option<PathBuf>,
+    /// A video of whoever speaks: a file (by ffmpeg), or a folder of pictures. Its face drives the cartoon's.
+    #[arg(long, value_name = "FILE")]
+    video: Option<PathBuf>,
+    /// Frames a second of a folder of pictures; 25 where left out. A video file knows its own.
+    #[arg(long, value_name = "FPS", requires = "video", value_parser = fps)]
+    video_fps: Option<f64>,
+    /// The frame of the video that is the neutral photo, counted from 0; the first where left out.
+    #[arg(long, value_name = "N", requires = "video", conflicts_with = "neutral")]
+    neutral_frame: Option<u32>,
+    /// A photo of one of the person's other emotions: happy, anger, disgust, sadness, fear or surprised. Points that
+    /// lie beside it in a .pts or .asf file of its name are taken along.
+    #[arg(long = "shot", value_name = "EMOTION=PHOTO", value_parser = shot)]
+    shots: Vec<(Emotion, PathBuf)>,
     /// A photo of whoever speaks, from the front, mouth closed: it becomes a cartoon.
     #[arg(long, value_name = "PHOTO")]
     neutral: Option<PathBuf>,
     /// Where the face is in a photo in which it is not found: the eye at the image's left,
     /// the one at its right, mouth, chin, in pixels.
-    #[arg(long, value_name = "X,Y", num_args = 4, allow_hyphen_values = true, requires = "neutral")]
+    #[arg(long, value_name = "X,Y", num_args = 4, allow_hyphen_values = true)]
     at: Vec<String>,
     /// The figure: cartoon (which needs a photo), line or cat.
     #[arg(long, value_name = "NAME")]
@@ -54,10 +69,18 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         timing: args.timing.clone(),
         ratios: args.ratios.clone(),
         neutral: args.neutral.clone(),
+        shots: args.shots.clone(),
+        video: args.video.clone(),
+        video_fps: args.video_fps,
+        neutral_frame: args.neutral_frame,
         anchors: super::face::anchors(&args.at)?,
         figure: args.figure.clone(),
     };
-    let Made { lesson, warnings, notes } = create(&args.project, &new)?;
+    let made = {
+        let bar = FramesDone::new("the video");
+        create(&args.project, &new, &mut |done, of| bar.show(done, of))?
+    };
+    let Made { lesson, warnings, notes, calibration } = made;
     let root = args.project.display();
     let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
     match lesson.clips.first() {
@@ -98,6 +121,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     for warning in &warnings {
         say(format!("note on the photo: {warning}"))?;
     }
+    for note in calibration.iter().flat_map(|quality| &quality.notes) {
+        say(format!("note on the shots: {note}"))?;
+    }
     let quoted = if args.project.to_string_lossy().contains(' ') { format!("'{root}'") } else { root.to_string() };
     if lesson.clips.is_empty() {
         say("next, to see and correct the face in the studio:".into())?;
@@ -106,4 +132,19 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     say("next, to see and correct it in the studio, and to write its frames:".into())?;
     say(format!("  lianpu {quoted}"))?;
     say(format!("  lianpu export {quoted} --to png"))
+}
+
+fn fps(text: &str) -> Result<f64, String> {
+    let fps = text.parse::<f64>().ok().filter(|f| (1.0..=240.0).contains(f));
+    fps.ok_or_else(|| format!("`{text}` is no frame rate: give frames a second from 1 to 240"))
+}
+
+fn shot(text: &str) -> Result<(Emotion, PathBuf), String> {
+    let (emotion, path) = text.split_once('=').ok_or("write it as happy=PHOTO")?;
+    match emotion.parse::<Emotion>() {
+        Ok(Emotion::Neutral) => Err("the neutral photo is given by --neutral PHOTO".into()),
+        Ok(emotion) if !path.is_empty() => Ok((emotion, path.into())),
+        Ok(_) => Err("the photo is missing: write it as happy=PHOTO".into()),
+        Err(what) => Err(format!("{what}: happy, anger, disgust, sadness, fear or surprised")),
+    }
 }

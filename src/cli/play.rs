@@ -1,11 +1,11 @@
 //! `lianpu play`.
 
-use std::io::{IsTerminal, Read};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use crate::disk::{Fault, MAX_TEXT_BYTES, Result, clean, read_text};
-use crate::emotion::Record;
-use crate::figure::LineFigure;
+use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
+use crate::emotion::{Record, Tracks, Whole, import, is_lpr};
+use crate::figure::{Figure, LineFigure};
 use crate::pose::MouthPreset;
 use crate::project::Lesson;
 use crate::studio::{self, Show};
@@ -14,59 +14,118 @@ use crate::timeline::{Score, Sources, Timeline};
 /// Play a clip's face, or a ratio record, in the terminal.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The project.
-    #[arg(value_name = "PROJECT", required_unless_present = "ratios", conflicts_with = "ratios")]
+    /// The project; with --ratios, whose face shows them.
+    #[arg(value_name = "PROJECT", required_unless_present_any = ["ratios", "of"])]
     project: Option<PathBuf>,
+    /// The same by name.
+    #[arg(long = "project", value_name = "PROJECT", conflicts_with = "project", hide = true)]
+    of: Option<PathBuf>,
     /// The clip; the first where left out.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "ratios")]
     clip: Option<String>,
-    /// A ratio record instead of a project; - reads it from standard input.
+    /// A ratio record: ratios.csv, its JSON, a compact record, or what OpenFace, mediapipe or ARKit wrote; - draws the first
+    /// three from standard input as they arrive.
     #[arg(long, value_name = "FILE")]
     ratios: Option<PathBuf>,
     /// The figure that shows a ratio record: line or cat.
-    #[arg(long, value_name = "NAME", default_value = "line")]
-    figure: String,
+    #[arg(long, value_name = "NAME", requires = "ratios", conflicts_with_all = ["project", "of"])]
+    figure: Option<String>,
+    /// The face of the project that shows a ratio record; its first where left out.
+    #[arg(long, value_name = "NAME", requires = "ratios")]
+    face: Option<String>,
 }
 
 /// Plays until it is left.
+///
+/// # Errors
+/// Of the call: no terminal, a figure, clip or face that is not there. Of the input: a lesson or record that cannot be
+/// read; a record that is cut or damaged, after what there is of it was played.
 pub fn run(args: &Args) -> Result<()> {
-    let show = match (&args.ratios, &args.project) {
-        (Some(path), _) => of_record(path, &args.figure)?,
+    if !std::io::stdout().is_terminal() {
+        return Err(Fault::new("playing needs a terminal").help("use `lianpu export` for files").of_the_call());
+    }
+    let project = args.project.as_ref().or(args.of.as_ref());
+    match (&args.ratios, project) {
+        (Some(path), _) => {
+            let figure = figure(args, project.map(PathBuf::as_path))?;
+            if path == Path::new("-") { from_pipe(figure) } else { from_file(path, figure) }
+        }
         (None, Some(project)) => {
             let mut lesson = Lesson::read(project)?;
             let clip = lesson.clip_named(args.clip.as_deref()).map_err(Fault::of_the_call)?;
             super::align::find_missing(&mut lesson, &[clip]);
-            Show::of_clip(&lesson, clip)?
+            studio::play(Show::of_clip(&lesson, clip)?)
         }
-        (None, None) => return Err(Fault::new("there is nothing to play").help("name a project").of_the_call()),
-    };
-    if !std::io::stdout().is_terminal() {
-        return Err(Fault::new("playing needs a terminal").help("use `lianpu export` for files").of_the_call());
+        (None, None) => Err(Fault::new("there is nothing to play").help("name a project").of_the_call()),
     }
-    studio::play(show)
 }
 
-fn of_record(path: &Path, figure: &str) -> Result<Show> {
-    let from_pipe = path == Path::new("-");
-    let text = if from_pipe {
-        let mut bytes = Vec::new();
-        let mut input = std::io::stdin().lock().take(MAX_TEXT_BYTES);
-        input.read_to_end(&mut bytes).map_err(|e| Fault::io("cannot read it", "standard input", e))?;
-        clean(&String::from_utf8_lossy(&bytes))
-    } else {
-        read_text(path)?
+/// Who shows a record: a built-in figure, or a lesson's own.
+fn figure(args: &Args, project: Option<&Path>) -> Result<Figure> {
+    let Some(project) = project else {
+        if args.face.is_some() {
+            return Err(Fault::new("`--face` needs a project").help("name it: --project PATH").of_the_call());
+        }
+        let name = args.figure.as_deref().unwrap_or("line");
+        return LineFigure::built_in(name).map(Figure::from).map_err(Fault::of_the_call);
     };
-    let title = if from_pipe { "ratios".into() } else { path.display().to_string() };
-    let record = Record::parse(&text).map_err(|f| f.at(if from_pipe { Path::new("standard input") } else { path }))?;
-    let timeline = Timeline::build(&Sources {
+    let lesson = Lesson::read(project)?;
+    let faces = || lesson.manifest.faces.iter().map(|f| f.name.clone());
+    if let Some(name) = args.face.as_ref().filter(|name| !faces().any(|f| f == **name)) {
+        let names = faces().collect::<Vec<_>>().join(", ");
+        let help = if names.is_empty() { "it has none".to_owned() } else { format!("its faces are {names}") };
+        return Err(Fault::new(format!("the project has no face `{name}`")).at(project).help(help).of_the_call());
+    }
+    lesson.figure_of_face(args.face.as_deref())
+}
+
+/// A record that is there whole.
+fn from_file(path: &Path, figure: Figure) -> Result<()> {
+    let bytes = disk::read_bytes(path, MAX_TEXT_BYTES)?;
+    let (record, tracks, damage, notes) = if is_lpr(&bytes) {
+        let whole = Whole::read(&bytes[..]).map_err(|f| f.at(path))?;
+        (whole.record, whole.tracks, whole.damage, Vec::new())
+    } else {
+        let (record, tracks, notes) = import::parse(&bytes, None).map_err(|f| f.at(path))?;
+        (record, tracks, None, notes)
+    };
+    let frames = record.rows.len() as u64;
+    let title = path.display().to_string();
+    studio::play(Show { title, timeline: timeline(&record, tracks.as_ref()), figure, captions: Vec::new() })?;
+    for note in notes {
+        eprintln!("note: {note}");
+    }
+    damage.map_or(Ok(()), |fault| Err(after_playing(&fault, frames).at(path)))
+}
+
+/// A record that arrives.
+fn from_pipe(figure: Figure) -> Result<()> {
+    if std::io::stdin().is_terminal() {
+        let help = "pipe a record into it: lianpu track --live … | lianpu play --ratios -";
+        return Err(Fault::new("standard input is the terminal itself").help(help).of_the_call());
+    }
+    let played = studio::play_live("ratios", figure, std::io::stdin())?;
+    let said = |fault: Fault| match played.frames {
+        0 => fault,
+        frames => after_playing(&fault, frames),
+    };
+    played.damage.map_or(Ok(()), |fault| Err(said(fault).at("standard input")))
+}
+
+/// What was wrong with a record, and how much of it was played.
+fn after_playing(fault: &Fault, frames: u64) -> Fault {
+    let count = if frames == 1 { "1 frame was played".to_owned() } else { format!("{frames} frames were played") };
+    Fault::new(format!("{}; {count}", fault.what())).help(fault.next_step())
+}
+
+fn timeline(record: &Record, tracks: Option<&Tracks>) -> Timeline {
+    Timeline::build(&Sources {
         duration: record.duration(),
-        fps: 25.0,
+        fps: record.fps().clamp(1.0, 240.0),
         spoken: &[],
-        record: Some(&record),
-        tracks: None,
+        record: Some(record),
+        tracks,
         score: &Score::default(),
         mouths: MouthPreset::default(),
-    });
-    let figure = LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
-    Ok(Show { title, timeline, figure: figure.into(), captions: Vec::new() })
+    })
 }

@@ -45,8 +45,10 @@ enum What {
     Timeline,
     /// The figure's seven drawings; with --at, moments with their ratios.
     Faces,
-    /// A moment's drawing beside its seven ratios.
+    /// A moment's drawing beside its seven ratios, and the frame of its video.
     Frame,
+    /// The shapes of the person's seven emotions, laid over each other.
+    Shots,
 }
 
 /// Draws the chart and prints where it is.
@@ -84,6 +86,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             ("faces", plot::faces(figure.title(), &Emotion::ALL.map(pure)))
         }
         What::Faces => ("faces", plot::faces(&title, &args.at.iter().map(|t| moment(*t)).collect::<Vec<_>>())),
+        What::Shots => ("shots", shots(&lesson, index)?),
         What::Frame => {
             let &[at] = args.at.as_slice() else {
                 return Err(Fault::new("a frame needs its moment")
@@ -91,7 +94,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                     .of_the_call());
             };
             let pose = timeline.pose(at);
-            ("frame", plot::frame(&format!("{title}, {at:.2} s"), &figure.draw(&pose), &pose.ratios))
+            ("frame", {
+                let video = clip.frame_at(at)?;
+                plot::frame(&format!("{title}, {at:.2} s"), video.as_ref(), &figure.draw(&pose), &pose.ratios)
+            })
         }
     };
     let path = match &args.out {
@@ -100,6 +106,26 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     };
     write_chart(&path, drawing, args.font.as_deref())?;
     writeln!(out, "{}", path.display()).map_err(output_fault)
+}
+
+/// The calibration of the clip's face (paper fig. 3).
+fn shots(lesson: &Lesson, clip: usize) -> Result<Drawing> {
+    let entry = lesson.manifest.face_of(&lesson.clips[clip].entry);
+    let face = entry.and_then(|e| lesson.faces.iter().find(|f| f.entry.name == e.name));
+    let calibrated = face.and_then(|f| Some((f, f.calibration.as_ref()?)));
+    let Some((face, file)) = calibrated else {
+        return Err(Fault::new("the face of this clip is not calibrated yet")
+            .at(&lesson.root)
+            .help("`lianpu calibrate PROJECT` does that, from faces/NAME/happy.png and so on"));
+    };
+    let mut said: [String; 7] = Default::default();
+    for (said, shot) in said.iter_mut().zip(&file.quality.shots) {
+        if shot.emotion != Emotion::Neutral {
+            *said = format!("{:.1} % from neutral, residual {:.1} %", shot.strength, shot.residual);
+        }
+    }
+    let title = format!("{} · {}", lesson.manifest.title, face.entry.name);
+    Ok(plot::shots(&title, &file.calibration, &said))
 }
 
 fn score_of(

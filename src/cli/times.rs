@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::disk::{Fault, Result};
-use crate::project::Clip;
+use crate::project::{Clip, Concern};
 use crate::script::Syllable;
 use crate::speech::{self, SURE};
 use crate::timing::Interval;
@@ -54,7 +54,8 @@ impl Row {
 
     /// What a lesson has of a clip, from its tiers.
     pub(super) fn of_clip(clip: &Clip, named: bool) -> Vec<Self> {
-        let mut unheard: Vec<usize> = clip.doubts().iter().filter(|d| !d.heard).filter_map(|d| d.syllable).collect();
+        let mut unheard: Vec<usize> =
+            clip.doubts().iter().filter(|d| d.what == Concern::NotHeard).filter_map(|d| d.syllable).collect();
         unheard.sort_unstable();
         let phones = clip.timing.tier("phones").map(|t| t.intervals.as_slice()).unwrap_or_default();
         let row = |(i, (syllable, interval)): (usize, (&Syllable, &Interval))| {

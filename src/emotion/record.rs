@@ -120,6 +120,37 @@ impl Record {
         Some((before.ratios.lerp(next.ratios, t), before.confidence + (next.confidence - before.confidence) * t))
     }
 
+    /// Frames a second: the usual rate that all its times keep to, within the microsecond that they are written in; else
+    /// what they are on average, and 25 for a single frame.
+    #[must_use]
+    pub fn fps(&self) -> f64 {
+        const USUAL: [f64; 13] = [
+            25.0,
+            30.0,
+            24.0,
+            30_000.0 / 1001.0,
+            24_000.0 / 1001.0,
+            50.0,
+            60.0,
+            60_000.0 / 1001.0,
+            12.0,
+            15.0,
+            10.0,
+            48.0,
+            120.0,
+        ];
+        let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return USUAL[0] };
+        if last.frame == first.frame {
+            return USUAL[0];
+        }
+        let keeps = |fps: &&f64| {
+            let off = |row: &Row| row.time - first.time - f64::from(row.frame - first.frame) / **fps;
+            self.rows.iter().all(|row| off(row).abs() < 1.6e-6)
+        };
+        let mean = f64::from(last.frame - first.frame) / (last.time - first.time);
+        USUAL.iter().find(keeps).copied().unwrap_or(mean)
+    }
+
     /// How long the record lasts, in seconds: to the end of its last frame, a frame being as long as they are on
     /// average. A single frame ends when it begins, because its length is not known.
     #[must_use]

@@ -18,6 +18,7 @@ mod cuts;
 mod cheeks;
 mod stages;
 mod quality;
+mod strip;
 mod write;
 
 pub use cheeks::{Cheeks, Ear};
@@ -34,6 +35,7 @@ pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, sha256};
 pub use refine::Refined;
 pub use regions::{Neighbours, Region, Regions};
 pub use stages::{Located, STAGES_SIDE, Stages};
+pub use strip::without_metadata;
 pub use threshold::{FaceGround, LightDark, mean_deviation, moment_preserving};
 pub use write::to_clean_png;
 

@@ -2,19 +2,33 @@
 
 use super::axes::{TEXT, block, chart, number, rule};
 use super::curves::heading;
+use super::pixels::image;
 use super::{GREY, INK, RULE, colour_of};
 use crate::drawing::{Anchor, Drawing, Item};
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Affine, Point, Rect, Vec2};
+use crate::photo::Photo;
 use crate::pose::{Emotion, Ratios};
 
-/// A drawing beside the seven ratios it shows as bars.
+/// A drawing beside the seven ratios it shows as bars; before it the frame of the video that it is drawn from, where
+/// there is one.
 #[must_use]
-pub fn frame(title: &str, face: &Drawing, ratios: &Ratios) -> Drawing {
+pub fn frame(title: &str, video: Option<&Photo>, face: &Drawing, ratios: &Ratios) -> Drawing {
     let mut items = vec![heading(title)];
-    items.push(face.placed_in(Rect::new(20.0, 60.0, 560.0, 600.0)));
-    items.extend(bars(Rect::new(700.0, 110.0, 1080.0, 550.0), ratios));
-    chart(title, "A face beside its seven emotion ratios.", 1200.0, 630.0, items)
+    let left = if video.is_some() { 560.0 } else { 0.0 };
+    if let Some(photo) = video {
+        let (photo, _) = photo.at_most(VIDEO_SIDE);
+        let (width, height) = (photo.width() as f64, photo.height() as f64);
+        let scale = (520.0 / width).min(540.0 / height);
+        let corner = Vec2::new(20.0 + (520.0 - scale * width) / 2.0, 60.0 + (540.0 - scale * height) / 2.0);
+        items.push(Item::moved("video", Affine::translate(corner) * Affine::scale(scale), vec![image(&photo)]));
+    }
+    items.push(face.placed_in(Rect::new(left + 20.0, 60.0, left + 560.0, 600.0)));
+    items.extend(bars(Rect::new(left + 700.0, 110.0, left + 1080.0, 550.0), ratios));
+    chart(title, "A face beside its seven emotion ratios.", left + 1200.0, 630.0, items)
 }
+
+/// The longest side of a video's frame as it is drawn.
+const VIDEO_SIDE: usize = 800;
 
 /// Bars to the right for ratios above 0 and to the left for those below, on one axis.
 fn bars(area: Rect, ratios: &Ratios) -> Vec<Item> {

@@ -12,6 +12,7 @@ mod pixels;
 mod points;
 mod score;
 mod sheet;
+mod shots;
 mod stages;
 
 pub use curves::{Samples, change, ratios};
@@ -20,6 +21,7 @@ pub use model::model;
 pub use points::{face_over, points_over};
 pub use score::{Row, timeline};
 pub use sheet::sheet;
+pub use shots::shots;
 pub use stages::stages;
 
 use crate::drawing::Colour;

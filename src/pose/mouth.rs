@@ -120,7 +120,9 @@ pub struct MouthPose {
     pub bite: f64,
     /// How far the tongue is raised, 0 to 1.
     pub tongue: f64,
-    /// 1 while a syllable is spoken, 0 at rest: how much of the mouth is speech's to open.
+    /// 1 while a syllable is spoken, 0 at rest: how much of the mouth is speech's to open. 2 where the whole mouth was
+    /// measured, as a video's is: nothing of the emotion's own opening and width comes on top, but its raised or hanging
+    /// corners stay.
     pub speaking: f64,
 }
 

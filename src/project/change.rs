@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::doubts::CONFIDENCE;
+use super::footage::Footage;
 use super::said::Said;
 use super::times::OWN_TIERS;
 use super::{Clip, LessonFace};
@@ -53,6 +54,15 @@ pub enum Edit {
         before: Box<Said>,
         /// As it is to be.
         after: Box<Said>,
+    },
+    /// What was found in a clip's video.
+    Tracked {
+        /// Number of the clip.
+        clip: usize,
+        /// As it was.
+        before: Box<Footage>,
+        /// As it is to be.
+        after: Box<Footage>,
     },
     /// A syllable's label: its text, or text and reading as `行{hang2}`.
     Label {
@@ -204,6 +214,7 @@ impl Edit {
             Self::Times { clip, first, before, after } => Self::Times { clip, first, before: after, after: before },
             Self::Timing { clip, before, after } => Self::Timing { clip, before: after, after: before },
             Self::Said { clip, before, after } => Self::Said { clip, before: after, after: before },
+            Self::Tracked { clip, before, after } => Self::Tracked { clip, before: after, after: before },
             Self::Label { clip, index, before, after } => Self::Label { clip, index, before: after, after: before },
             Self::Pin { clip, index, pinned } => Self::Pin { clip, index, pinned: !pinned },
             Self::AddKey { clip, key } => Self::RemoveKey { clip, key },
@@ -233,6 +244,7 @@ impl Edit {
                 Ok(())
             }
             Self::Said { clip, before, after } => clip_of(clips, *clip)?.say(before, after),
+            Self::Tracked { clip, before, after } => clip_of(clips, *clip)?.take_footage(before, after),
             Self::Label { clip, index, before, after } => {
                 let clip = clip_of(clips, *clip)?;
                 let label = clip

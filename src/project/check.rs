@@ -134,6 +134,9 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     if let Some(record) = &clip.record {
         parts.push(format!("{} of ratios", counted(record.rows.len(), "row")));
     }
+    if let Some(video) = clip.video.as_ref().and_then(|v| v.file_name()) {
+        parts.push(format!("video {}", video.to_string_lossy()));
+    }
     let keys = clip.score.keys.len();
     if keys > 0 {
         parts.push(counted(keys, "key"));
@@ -143,6 +146,18 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     if clip.timing.guessed && !clip.syllables.is_empty() {
         let how = if clip.sound.is_some() { "`lianpu align` finds them" } else { "set them in the studio" };
         found.push(odd(format!("the syllables' times are guessed; {how}")));
+    }
+    if clip.wants_tracking() {
+        found.push(odd("the face in its video was never followed; `lianpu track` does that".into()));
+    }
+    let lost = clip.lost();
+    if let Some(first) = lost.first() {
+        let places = counted(lost.len(), "place");
+        found.push(odd(format!(
+            "{places} of its video to look at, the first at {:.2} s: {}",
+            first.start,
+            clip.told(first)
+        )));
     }
     if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
         found.push(odd("there is sound and no script, so the mouth stays shut".into()));

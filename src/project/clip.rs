@@ -7,6 +7,7 @@ use super::change::Times;
 use super::label::label_reading;
 use super::manifest::ClipEntry;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
+use super::video;
 use crate::disk::{Fault, Result, inside, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
@@ -35,6 +36,8 @@ pub struct Clip {
     pub sound: Option<Arc<Sound>>,
     /// Where the recording is.
     pub sound_path: Option<PathBuf>,
+    /// Where its video is: a folder of pictures, or a file.
+    pub video: Option<PathBuf>,
     /// The ratio record.
     pub record: Option<Record>,
     /// Eyes, mouth and head from a video.
@@ -49,8 +52,12 @@ pub struct Clip {
     pub(super) plain: Vec<Syllable>,
     /// The script as its file has it, or as the labels of the timing gave it.
     pub(super) kept_script: String,
+    /// Whether an edit has changed what was found in the video since it was read or written.
+    pub(super) footage_changed: bool,
     /// Length of the sound in seconds, 0 without one.
     sound_seconds: f64,
+    /// Length of the video in seconds, 0 without one, and where a sound or a record says it.
+    video_seconds: f64,
 }
 
 /// What the files that saving writes looked like when they were last read or written; none where there was none.
@@ -59,6 +66,8 @@ pub(super) struct Seen {
     pub(super) script: Option<u32>,
     pub(super) timing: Option<u32>,
     pub(super) score: Option<u32>,
+    pub(super) ratios: Option<u32>,
+    pub(super) tracks: Option<u32>,
 }
 
 impl Clip {
@@ -88,6 +97,7 @@ impl Clip {
             timing: Timing::default(),
             sound: None,
             sound_path: sound_file(root, &folder)?,
+            video: video::of(root, &folder)?,
             record: None,
             tracks: None,
             score: Score::default(),
@@ -95,7 +105,9 @@ impl Clip {
             seen: Seen::default(),
             plain: Vec::new(),
             kept_script: String::new(),
+            footage_changed: false,
             sound_seconds: 0.0,
+            video_seconds: 0.0,
         };
         if let Some((path, script)) = text("script.txt")? {
             let system = entry.script_system.unwrap_or(System::Auto);
@@ -111,13 +123,22 @@ impl Clip {
         }
         if let Some((path, text)) = text("ratios.csv")? {
             clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
+            clip.seen.ratios = super::save::checksum(&path);
         }
         if let Some((path, text)) = text("tracks.csv")? {
             clip.tracks = Some(Tracks::parse(&text).map_err(|f| f.at(&path))?);
+            clip.seen.tracks = super::save::checksum(&path);
         }
         if let Some((path, text)) = text("score.toml")? {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
             clip.seen.score = super::save::checksum(&path);
+        }
+        if clip.sound.is_none() && clip.record.is_none() {
+            // A video that cannot be opened here, for want of ffmpeg, is no reason not to show the rest.
+            match clip.source() {
+                Ok(source) => clip.video_seconds = source.and_then(|s| s.duration()).unwrap_or(0.0),
+                Err(fault) => clip.warnings.push(fault.to_string()),
+            }
         }
         match file("timing.TextGrid")? {
             Some(path) => {
@@ -140,7 +161,7 @@ impl Clip {
         if clip.duration() <= 0.0 {
             return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
                 .at(&folder)
-                .help("put a speech.wav with its script.txt there, a timing.TextGrid, or a ratios.csv"));
+                .help("put a speech.wav with its script.txt there, a timing.TextGrid, a ratios.csv, or a video"));
         }
         Ok(clip)
     }
@@ -200,7 +221,7 @@ impl Clip {
         }
         let last_key = self.score.keys.iter().map(|k| k.time).fold(0.0, f64::max);
         let record = self.record.as_ref().map_or(0.0, Record::duration);
-        self.timing.duration.max(record).max(last_key)
+        self.timing.duration.max(record).max(last_key).max(self.video_seconds)
     }
 
     /// What is said as the timeline takes it: from the tier `shapes` where there is one, else from the syllables.

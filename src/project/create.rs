@@ -3,19 +3,20 @@
 
 use std::path::{Path, PathBuf};
 
+use super::brought::{Brought, copy_video, frame_of, write_face};
 use super::clip::SOUNDS;
-use super::face::FACE_FILE;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
-use super::{AlignJob, Lesson};
+use super::video::FRAMES_FPS;
+use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
-use crate::emotion::Record;
+use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
-use crate::geometry::Point;
-use crate::photo::{Photo, sha256, to_clean_png};
+use crate::pose::Emotion;
 use crate::script::System;
 use crate::speech::Note;
 use crate::timing::{self, Format};
+use crate::track::Options;
 
 /// The largest recording that is copied: hours of sound.
 const MAX_SOUND_BYTES: u64 = 4 << 30;
@@ -39,6 +40,14 @@ pub struct NewLesson {
     pub neutral: Option<PathBuf>,
     /// Where its face is, in pixels of the photo, where it is not found.
     pub anchors: Option<Anchors>,
+    /// Photos of the same person's other emotions.
+    pub shots: Vec<(Emotion, PathBuf)>,
+    /// A video of the person: a file, or a folder of pictures.
+    pub video: Option<PathBuf>,
+    /// Frames a second of a video that is a folder of pictures.
+    pub video_fps: Option<f64>,
+    /// The number of the frame that is the neutral photo where none is given; the first where left out.
+    pub neutral_frame: Option<u32>,
     /// The figure.
     pub figure: Option<String>,
 }
@@ -50,15 +59,18 @@ pub struct Made {
     pub lesson: Lesson,
     /// What there is to say of its photo.
     pub warnings: Vec<Warning>,
-    /// What there is to say of its recording.
+    /// What there is to say of its recording and its video.
     pub notes: Vec<String>,
+    /// How good the calibration of its face is, where it was calibrated.
+    pub calibration: Option<Quality>,
 }
 
-/// Makes the lesson `root` and returns it, read back.
+/// Makes the lesson `root` and returns it, read back. Where it has a video, `go_on` is told how many of its frames were
+/// looked at, of how many, and stops that by `false`: the lesson is made without it then.
 ///
 /// # Errors
 /// When the folder is taken, or an input cannot be used; then nothing is left behind.
-pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
+pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Made> {
     let Some(name) = root.file_name().and_then(|n| n.to_str()).map(str::to_owned) else {
         return Err(Fault::new(format!("`{}` does not end in a name for the lesson", root.display()))
             .help("give the folder to make, such as lessons/nihao")
@@ -69,10 +81,20 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
     if taken {
         return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
     }
-    let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some();
+    let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some() || new.video.is_some();
     if !has_clip && new.neutral.is_none() {
-        return Err(Fault::new("a lesson needs a photo, a recording, times, or ratios")
-            .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, or --ratios FILE")
+        return Err(Fault::new("a lesson needs a photo, a recording, times, ratios, or a video")
+            .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, --ratios FILE, or --video FILE")
+            .of_the_call());
+    }
+    if !new.shots.is_empty() && new.neutral.is_none() && new.video.is_none() {
+        return Err(Fault::new("shots of emotions are measured from the neutral face")
+            .help("give --neutral PHOTO too")
+            .of_the_call());
+    }
+    if new.ratios.is_some() && new.video.is_some() {
+        return Err(Fault::new("the ratios of a clip are those of its video, or those of a file")
+            .help("give --video or --ratios")
             .of_the_call());
     }
     if new.script.is_some() && !has_clip {
@@ -84,15 +106,21 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let figure = new.figure.as_deref().unwrap_or(if new.neutral.is_some() { CARTOON } else { "line" });
+    let has_face = new.neutral.is_some() || new.video.is_some();
+    let figure = new.figure.as_deref().unwrap_or(if has_face { CARTOON } else { "line" });
     if figure != CARTOON {
         LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
-    } else if new.neutral.is_none() {
+    } else if !has_face {
         return Err(Fault::new("a cartoon needs a photo").help("give --neutral PHOTO").of_the_call());
     }
     check_inputs(new)?;
     // Before a folder is made: a photo in which no face is found leaves nothing behind.
-    let face = new.neutral.as_deref().map(|path| NewFace::of(path, new.anchors)).transpose()?;
+    let face = neutral(new)?;
+    let shots = new
+        .shots
+        .iter()
+        .map(|(e, path)| Ok((*e, Brought::read(path)?)))
+        .collect::<Result<Vec<(Emotion, Brought)>>>()?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")
@@ -104,12 +132,18 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
         script_system: new.system.filter(|s| *s != System::Auto),
         onsets: Default::default(),
         take_of: None,
+        video_fps: new.video_fps.filter(|_| new.video.as_deref().is_some_and(Path::is_dir)),
     };
     if has_clip {
         fill(draft.path(), &clip, new)?;
     }
-    if let Some(face) = &face {
-        face.write(&draft.path().join("faces").join(FACE))?;
+    let faces = draft.path().join("faces").join(FACE);
+    if let Some((photo, created)) = &face {
+        photo.write(&faces, Emotion::Neutral)?;
+        write_face(&faces, created)?;
+    }
+    for (emotion, shot) in &shots {
+        shot.write(&faces, *emotion)?;
     }
     let manifest = Manifest {
         title: clean_line(new.title.as_deref().unwrap_or(&name), 200),
@@ -135,7 +169,9 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
             None => fault,
         });
     }
-    let notes = find_times(&mut lesson)?;
+    let mut notes = find_times(&mut lesson)?;
+    let calibration = calibrate_shots(&lesson, new)?;
+    notes.extend(follow_faces(&mut lesson, go_on)?);
     drop(lesson);
     if root.exists() {
         std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
@@ -146,8 +182,8 @@ pub fn create(root: &Path, new: &NewLesson) -> Result<Made> {
         Fault::io("cannot make the lesson's folder", root, e)
     })?;
     open_to_others(root);
-    let warnings = face.map_or_else(Vec::new, |f| f.created.warnings);
-    Ok(Made { lesson: Lesson::read(root)?, warnings, notes })
+    let warnings = face.map_or_else(Vec::new, |(_, created)| created.warnings);
+    Ok(Made { lesson: Lesson::read(root)?, warnings, notes, calibration })
 }
 
 /// Finds the times of a new lesson in its sound, and says what there is to say of them. A recording that cannot be
@@ -171,40 +207,55 @@ fn find_times(lesson: &mut Lesson) -> Result<Vec<String>> {
     Ok(notes)
 }
 
+/// Calibrates a new lesson's face where there are shots of it or a video to follow it in.
+fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> {
+    let Some(face) = lesson.faces.first().filter(|_| !new.shots.is_empty() || new.video.is_some()) else {
+        return Ok(None);
+    };
+    let kept = Kept::make(&face.folder).map_err(|f| of_inputs(&f, new))?;
+    kept.write(&face.folder)?;
+    Ok(Some(kept.made.quality))
+}
+
+/// Follows the faces in a new lesson's videos. A video in which that fails is no reason not to make a lesson of it.
+fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
+    for number in (0..lesson.clips.len()).filter(|n| lesson.clips[*n].wants_tracking()).collect::<Vec<_>>() {
+        let job = TrackJob::of(lesson, number, Method::default(), Options::default())?;
+        match job.run(go_on) {
+            Ok(followed) => {
+                notes.extend(followed.notes);
+                notes.extend(followed.tracked.notes.iter().cloned());
+                lesson.take_tracked(number, followed.tracked, followed.checksum);
+                lesson.clips[number].footage_changed = true;
+                lesson.clips[number].save()?;
+            }
+            Err(fault) => notes.push(format!("the face in its video could not be followed: {fault}")),
+        }
+    }
+    Ok(notes)
+}
+
 /// What the face of a new lesson is called.
 const FACE: &str = "teacher";
 /// The figure that is drawn from a photo.
 const CARTOON: &str = "cartoon";
-/// A photo is kept at most so many pixels wide and high: a cartoon needs no more, and a repository thanks for it.
-const KEPT_SIDE: usize = 2000;
-
-/// The face of a new lesson: its photo as it is kept, without anything but its pixels, and what was found in it.
-struct NewFace {
-    png: Vec<u8>,
-    created: Created,
-}
-
-impl NewFace {
-    fn of(path: &Path, anchors: Option<Anchors>) -> Result<Self> {
-        let photo = Photo::read(path)?;
-        let (kept, factor) = photo.at_most(KEPT_SIDE);
-        let small = |p: Point| Point::new(p.x / factor, p.y / factor);
-        let anchors = anchors.map(|a| Anchors {
-            left_eye: small(a.left_eye),
-            right_eye: small(a.right_eye),
-            mouth: small(a.mouth),
-            chin: small(a.chin),
-        });
-        let png = to_clean_png(&kept)?;
-        let created = crate::face::create(&kept, &sha256(&png), None, anchors.as_ref()).map_err(|f| f.at(path))?;
-        Ok(Self { png, created })
+/// The neutral photo of a new lesson, from a photo or a video, and the face in it.
+fn neutral(new: &NewLesson) -> Result<Option<(Brought, Created)>> {
+    if let Some(path) = &new.neutral {
+        let photo = Brought::read(path)?;
+        let created = photo.face(new.anchors).map_err(|f| f.at(path))?;
+        return Ok(Some((photo, created)));
     }
-
-    fn write(&self, folder: &Path) -> Result<()> {
-        std::fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
-        write_whole(&folder.join("neutral.png"), &self.png)?;
-        write_whole(&folder.join(FACE_FILE), self.created.face.to_toml().as_bytes())
-    }
+    let Some(video) = &new.video else { return Ok(None) };
+    let number = new.neutral_frame.unwrap_or(0);
+    let photo = frame_of(video, new.video_fps.unwrap_or(FRAMES_FPS), number)?;
+    let created = photo.face(new.anchors).map_err(|f| {
+        Fault::new(format!("frame {number} cannot be the neutral face: {}", f.what()))
+            .at(video)
+            .help("name one that shows it at rest, from the front: --neutral-frame N, or give --neutral PHOTO")
+    })?;
+    Ok(Some((photo, created)))
 }
 
 /// Reads every input where it is, before a folder is made, so that a fault names the author's file and nothing is left.
@@ -219,7 +270,7 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
         timing::read(path)?;
     }
     if let Some(path) = &new.ratios {
-        Record::parse(&read_text(path)?).map_err(|f| f.at(path))?;
+        import::read(path)?;
     }
     Ok(())
 }
@@ -241,7 +292,14 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<()> {
         write_whole(&folder.join("timing.TextGrid"), timing::write(&timing, Format::TextGrid).as_bytes())?;
     }
     if let Some(path) = &new.ratios {
-        write_whole(&folder.join("ratios.csv"), read_text(path)?.as_bytes())?;
+        let (record, tracks, _) = import::read(path)?;
+        write_whole(&folder.join("ratios.csv"), record.to_csv().as_bytes())?;
+        if let Some(tracks) = tracks {
+            write_whole(&folder.join("tracks.csv"), tracks.to_csv().as_bytes())?;
+        }
+    }
+    if let Some(path) = &new.video {
+        copy_video(path, &folder)?;
     }
     Ok(())
 }

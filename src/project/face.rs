@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::manifest::FaceEntry;
 use super::save::checksum;
 use crate::disk::{Result, inside, read_text};
+use crate::emotion::{CALIBRATION, CalibrationFile};
 use crate::face::{Face, create};
 use crate::photo::Photo;
 
@@ -26,6 +27,8 @@ pub struct LessonFace {
     pub face: Option<Face>,
     /// Its neutral photo.
     pub photo: Option<PathBuf>,
+    /// The shapes of its person's emotions, where they were calibrated.
+    pub calibration: Option<Box<CalibrationFile>>,
     /// The checksum of `face.toml` as it was last read or written.
     pub(super) seen: Option<u32>,
     /// The face as the file has it.
@@ -51,7 +54,9 @@ impl LessonFace {
             true => (Some(Face::parse(&read_text(&path)?).map_err(|f| f.at(&path))?), checksum(&path)),
             false => (None, None),
         };
-        Ok(Self { entry: entry.clone(), folder, written: face.clone(), face, photo, seen })
+        let path = inside(root, &format!("faces/{}/{CALIBRATION}", entry.name))?;
+        let calibration = path.is_file().then(|| CalibrationFile::read(&path).map(Box::new)).transpose()?;
+        Ok(Self { entry: entry.clone(), folder, written: face.clone(), face, photo, calibration, seen })
     }
 
     /// Whether the face has points to draw a cartoon from.

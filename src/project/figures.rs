@@ -36,7 +36,10 @@ pub(super) fn cartoon(root: &Path, face: &LessonFace) -> Result<Figure> {
             .help(help)
     })?;
     let style = style(root, face)?;
-    let cartoon = Cartoon::new(&points, &style);
+    let mut cartoon = Cartoon::new(&points, &style);
+    if let Some(file) = &face.calibration {
+        cartoon = cartoon.with_expressions(file.calibration.expressions());
+    }
     if face.entry.layers.is_empty() {
         return Ok(cartoon.into());
     }

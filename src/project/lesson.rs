@@ -236,6 +236,18 @@ impl Lesson {
         figures::figure(&self.root, face)
     }
 
+    /// The figure of a face by its name; without one of the first face, and the line face of a lesson without faces.
+    ///
+    /// # Errors
+    /// As [`Self::figure_of`].
+    pub fn figure_of_face(&self, name: Option<&str>) -> Result<Figure> {
+        let face = match name {
+            Some(name) => self.faces.iter().find(|f| f.entry.name == name),
+            None => self.faces.first(),
+        };
+        figures::figure(&self.root, face)
+    }
+
     /// The cartoon of a face, whatever figure the manifest names.
     ///
     /// # Errors

@@ -66,7 +66,7 @@ pub struct LayerEntry {
 }
 
 /// A clip of the lesson, one recording; its files are in `clips/NAME/`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClipEntry {
     /// Its name, which is its folder's.
@@ -83,6 +83,9 @@ pub struct ClipEntry {
     /// The clip that this one is another take of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub take_of: Option<String>,
+    /// Frames a second of a video that is a folder of pictures; 25 where left out. A video file knows its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub video_fps: Option<f64>,
 }
 
 /// What comes out.

@@ -4,6 +4,7 @@
 //! business. Loading never changes anything on disk.
 
 mod align;
+mod brought;
 mod change;
 mod check;
 mod clip;
@@ -11,6 +12,7 @@ mod create;
 mod doubts;
 mod face;
 mod figures;
+mod footage;
 mod history;
 mod journal;
 mod label;
@@ -20,6 +22,8 @@ mod said;
 mod quality;
 mod save;
 mod times;
+mod tracking;
+mod video;
 
 pub use align::{AlignJob, tiers_of};
 pub use change::{Change, Edit, Spot, Times};
@@ -27,10 +31,12 @@ pub(crate) use check::counted;
 pub use check::{Finding, check, check_quality};
 pub use clip::{Clip, LABEL_LIMIT};
 pub use create::{Made, NewLesson, create};
-pub use doubts::Doubt;
+pub use doubts::{Concern, Doubt};
 pub use face::LessonFace;
+pub use footage::Footage;
 pub use history::History;
 pub use lesson::{Lesson, projects_in};
 pub(crate) use manifest::check_output;
 pub use manifest::{ClipEntry, FaceEntry, LayerEntry, MANIFEST, Manifest, Output};
 pub use said::Said;
+pub use tracking::{Followed, Method, TrackJob};

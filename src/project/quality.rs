@@ -15,13 +15,8 @@ pub(super) fn of_clip(clip: &Clip) -> Vec<Finding> {
         let odd = quality.remarks().into_iter().map(|r| Finding::Odd(format!("clip {name}: its sound: {r}")));
         found.extend(odd);
     }
-    for doubt in clip.doubts() {
-        let text = doubt.syllable.and_then(|s| clip.syllables.get(s)).map(|s| s.text.as_str());
-        let what = match (text, doubt.heard) {
-            (None, _) => "something is said that is not in the script".to_owned(),
-            (Some(text), false) => format!("`{text}` is not heard"),
-            (Some(text), true) => format!("the times of `{text}` are {:.0} % sure", 100.0 * doubt.confidence),
-        };
+    for doubt in clip.to_look_at() {
+        let what = clip.told(&doubt);
         found.push(Finding::Odd(format!("clip {name}: {:.2} to {:.2} s: {what}", doubt.start, doubt.end)));
     }
     found

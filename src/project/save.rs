@@ -135,6 +135,7 @@ impl Clip {
             remove(&times)?;
             self.seen.timing = None;
         }
+        written.extend(self.save_footage()?);
         if let Some(text) = set {
             written.extend(write_changed(score, &text, &mut self.seen.score)?);
         }
@@ -149,7 +150,7 @@ impl Clip {
     }
 }
 
-fn remove(path: &Path) -> Result<()> {
+pub(super) fn remove(path: &Path) -> Result<()> {
     std::fs::remove_file(path).map_err(|e| Fault::io("cannot remove it", path, e))
 }
 
@@ -171,7 +172,7 @@ fn unchanged(path: &Path, text: &str, seen: Option<u32>) -> Result<()> {
 }
 
 /// Writes a text where the file differs from it, unless somebody else has changed the file meanwhile.
-fn write_changed(path: PathBuf, text: &str, seen: &mut Option<u32>) -> Result<Option<PathBuf>> {
+pub(super) fn write_changed(path: PathBuf, text: &str, seen: &mut Option<u32>) -> Result<Option<PathBuf>> {
     unchanged(&path, text, *seen)?;
     let new = Some(crc32fast::hash(text.as_bytes()));
     if checksum(&path) == new {

@@ -115,6 +115,10 @@ pub enum Action {
     Stage(i32),
     /// Find the clip's times in its sound.
     Align,
+    /// Follow the face in the clip's video, or stop doing so.
+    Follow,
+    /// Show the video beside the drawing, or not.
+    Video,
     /// Go to another place that the alignment is not sure of.
     Doubt(i32),
     /// List the places that the alignment is not sure of.

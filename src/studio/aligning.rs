@@ -200,13 +200,13 @@ fn take(state: &mut State, number: usize, of: &Standing, asked: bool, alignment:
 /// Goes to places that the alignment is not sure of, or lists them.
 pub(super) fn look(state: &mut State, action: Action) {
     let Some(clip) = state.clip() else { return };
-    let doubts = clip.doubts();
+    let doubts = clip.to_look_at();
     if doubts.is_empty() && action != Action::Doubts {
-        let unknown = clip.timing.tier("confidence").is_none();
+        let unknown = clip.timing.tier("confidence").is_none() && clip.score.tracked.is_none();
         state.say(if unknown {
             "not aligned yet: A finds the times"
         } else {
-            "nothing to look at: all syllables are sure"
+            "nothing to look at: everything found is sure"
         });
         return;
     }
@@ -220,7 +220,7 @@ pub(super) fn look(state: &mut State, action: Action) {
             let found = if by > 0 { doubts.iter().find(beyond) } else { doubts.iter().rev().find(beyond) };
             match found {
                 Some(doubt) => {
-                    let said = told(clip, doubt);
+                    let said = clip.told(doubt);
                     go(state, doubt.start, doubt.syllable);
                     state.say(said);
                 }
@@ -250,22 +250,9 @@ fn spotted(state: &State) -> Vec<Spotted> {
     let (Some(clip), Some(number)) = (state.clip(), chosen(state)) else { return Vec::new() };
     let notes = state.open.iter().filter_map(|o| o.notes.get(&number)).flatten();
     let whole = notes.map(|n| Spotted { at: None, syllable: None, text: n.clone() });
-    let doubts = clip.doubts();
-    let places = doubts.iter().map(|d| Spotted { at: Some(d.start), syllable: d.syllable, text: told(clip, d) });
+    let doubts = clip.to_look_at();
+    let places = doubts.iter().map(|d| Spotted { at: Some(d.start), syllable: d.syllable, text: clip.told(d) });
     whole.chain(places).collect()
-}
-
-/// A doubt in words.
-fn told(clip: &Clip, doubt: &Doubt) -> String {
-    match doubt.syllable.and_then(|i| clip.syllables.get(i)) {
-        Some(syllable) if !doubt.heard => format!("{} is not heard", name(syllable)),
-        Some(syllable) => format!("{}: {:.0} % sure", name(syllable), doubt.confidence * 100.0),
-        None => format!("{:.2} s are not in the script", doubt.end - doubt.start),
-    }
-}
-
-fn name(syllable: &crate::script::Syllable) -> String {
-    format!("{} {}", syllable.text, syllable.pinyin).trim_end().to_owned()
 }
 
 /// Goes to what is chosen in the list.
@@ -284,7 +271,9 @@ fn go(state: &mut State, time: f64, syllable: Option<usize>) {
     if let (Some(clips), Some(editor)) = (clips, &mut state.editor) {
         editor.go(&clips[editor.clip], time);
         editor.syllable = syllable.or(editor.syllable);
-        editor.lane = super::Lane::Syllables;
+        if syllable.is_some() {
+            editor.lane = super::Lane::Syllables;
+        }
     }
 }
 

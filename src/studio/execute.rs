@@ -10,12 +10,13 @@ use super::export::{ExportRequest, Progress};
 use super::line::Line;
 use super::overlay::{Overlay, Prompt, Purpose};
 use super::state::State;
-use super::{Action, Place, aligning, edits, face_edits, listening, places, tap_desk};
+use super::{Action, Place, aligning, edits, face_edits, following, listening, places, tap_desk};
 use crate::export::Format;
 use crate::face::{Anchors, Face};
 use crate::geometry::Point;
-use crate::project::AlignJob;
+use crate::project::{AlignJob, TrackJob};
 use crate::speech::Sound;
+use crate::track::Source;
 
 /// Work that takes long enough to be done elsewhere.
 #[derive(Debug)]
@@ -39,6 +40,28 @@ pub enum Job {
         root: PathBuf,
         /// What to align.
         job: Box<AlignJob>,
+    },
+    /// Follow the face in a clip's video.
+    Follow {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// What to follow.
+        job: Box<TrackJob>,
+        /// Set to stop it.
+        stop: Arc<AtomicBool>,
+    },
+    /// Read a frame of a clip's video.
+    Frame {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its video.
+        source: Box<Source>,
+        /// Which frame, counted from 0.
+        number: u32,
     },
     /// Make the spectrogram of a clip's sound.
     Spectrogram {
@@ -147,6 +170,8 @@ pub fn execute(state: &mut State, action: Action) -> Vec<Job> {
         Action::Face => face_edits::open(state),
         _ if !state.overlays.is_empty() => on_top(state, action),
         Action::Align => aligning::ask(state),
+        Action::Follow => following::ask(state),
+        Action::Video => following::show(state),
         _ if state.face.is_some() => face_edits::execute(state, action),
         _ if state.place() == Place::Tapping => tap_desk::execute(state, action),
         Action::Places => places::mark(state),
@@ -155,7 +180,8 @@ pub fn execute(state: &mut State, action: Action) -> Vec<Job> {
             None
         }
     };
-    job.into_iter().collect()
+    // The frame of the video follows the cursor.
+    job.into_iter().chain(following::missing(state)).collect()
 }
 
 /// What concerns the whole lesson or the way one came.
@@ -192,6 +218,7 @@ fn open(state: &mut State) -> Vec<Job> {
             let mut jobs: Vec<Job> = outline.into_iter().collect();
             jobs.extend(listening::missing(state));
             jobs.extend(aligning::of_itself(state, clip));
+            jobs.extend(following::of_itself(state, clip));
             jobs
         }
         _ => Vec::new(),

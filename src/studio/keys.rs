@@ -144,6 +144,8 @@ pub const TABLE: &[Row] = &[
     row(&[Timeline], &[("r", Reading)], "read", "set how the syllable is read"),
     row(&[Lesson], &[("A", Align)], "align", "find the times of the clip in its sound"),
     row(&[Timeline], &[("A", Align)], "align", "find the times in the sound (those set by hand stay)"),
+    row(&[Lesson, Timeline], &[("T", Follow)], "", "follow the face in the video; stop that"),
+    row(&[Timeline], &[("V", Video)], "", "the video beside the drawing, or not"),
     row(&[Timeline], &[("d", Doubt(1)), ("D", Doubt(-1))], "look at", "next, previous place to look at (!)"),
     row(&[Timeline], &[("o", Doubts)], "", "list the places to look at"),
     row(&[Timeline], &[("S", SoundView)], "", "the sound as a wave, as a spectrogram, or both"),

@@ -29,24 +29,7 @@ pub fn put(buffer: &mut Buffer, area: Cells, photo: &Photo, desk: &FaceDesk, fac
         size.width,
         size.height,
     );
-    let step = Vec2::new(view.width() / f64::from(size.width), view.height() / f64::from(size.height) / 2.0);
-    for y in 0..size.height {
-        for x in 0..size.width {
-            let pixel = |half: u16| {
-                let corner = view.origin() + Vec2::new(f64::from(x) * step.x, f64::from(y * 2 + half) * step.y);
-                mean(photo, corner, step)
-            };
-            let (above, below) = (pixel(0), pixel(1));
-            if let Some(cell) = buffer.cell_mut((place.x + x, place.y + y)) {
-                if colours == Colours::None {
-                    cell.set_char(shade(above, below));
-                } else {
-                    cell.set_char('▀');
-                    cell.set_style(Style::new().fg(colours.colour(above)).bg(colours.colour(below)));
-                }
-            }
-        }
-    }
+    let step = ground(buffer, place, photo, view, colours);
     let cell_of = |p: Point| {
         let x = ((p.x - view.x0) / step.x).floor();
         let y = ((p.y - view.y0) / step.y / 2.0).floor();
@@ -85,6 +68,37 @@ pub fn put(buffer: &mut Buffer, area: Cells, photo: &Photo, desk: &FaceDesk, fac
     if let Some(placed) = face.placed(desk.point) {
         mark(placed.at, '◆', colours.ink(CHOSEN).add_modifier(Modifier::BOLD));
     }
+}
+
+/// Puts a whole photo into the middle of an area.
+pub fn frame(buffer: &mut Buffer, area: Cells, photo: &Photo, colours: Colours) {
+    let view = Rect::new(0.0, 0.0, photo.width() as f64, photo.height() as f64);
+    let size = size_in(view, area.as_size());
+    let (x, y) = (area.x + (area.width - size.width) / 2, area.y + (area.height - size.height) / 2);
+    ground(buffer, Cells::new(x, y, size.width, size.height), photo, view, colours);
+}
+
+/// Fills cells with a part of a photo, two pixels a cell; how large such a pixel is in the photo.
+fn ground(buffer: &mut Buffer, place: Cells, photo: &Photo, view: Rect, colours: Colours) -> Vec2 {
+    let step = Vec2::new(view.width() / f64::from(place.width), view.height() / f64::from(place.height) / 2.0);
+    for y in 0..place.height {
+        for x in 0..place.width {
+            let pixel = |half: u16| {
+                let corner = view.origin() + Vec2::new(f64::from(x) * step.x, f64::from(y * 2 + half) * step.y);
+                mean(photo, corner, step)
+            };
+            let (above, below) = (pixel(0), pixel(1));
+            if let Some(cell) = buffer.cell_mut((place.x + x, place.y + y)) {
+                if colours == Colours::None {
+                    cell.set_char(shade(above, below));
+                } else {
+                    cell.set_char('▀');
+                    cell.set_style(Style::new().fg(colours.colour(above)).bg(colours.colour(below)));
+                }
+            }
+        }
+    }
+    step
 }
 
 /// Found in the photo: bright green shows on skin and on hair.

@@ -216,6 +216,9 @@ impl Player {
 }
 
 impl Desk for Player {
+    /// It has no threads.
+    type Report = ();
+
     fn key(&mut self, name: &str) -> bool {
         Player::key(self, name)
     }

@@ -34,12 +34,14 @@ pub fn run(folder: &Path, exporter: Exporter) -> Result<()> {
 
 /// What the loop drives.
 pub(super) trait Desk {
+    /// What its threads report.
+    type Report;
     /// A key by its name in the table; whether something may have changed.
     fn key(&mut self, name: &str) -> bool;
     /// Pasted text.
     fn paste(&mut self, _text: &str) {}
     /// A report of a thread.
-    fn receive(&mut self, _report: Report) {}
+    fn receive(&mut self, _report: Self::Report) {}
     /// So many seconds have passed while it plays; whether there is something new to show.
     fn advance(&mut self, seconds: f64) -> bool;
     /// Seconds to the next frame while it plays.
@@ -53,6 +55,8 @@ pub(super) trait Desk {
 }
 
 impl Desk for Studio {
+    type Report = Report;
+
     fn key(&mut self, name: &str) -> bool {
         Studio::key(self, name)
     }
@@ -95,7 +99,7 @@ enum Event {
 }
 
 /// Drives a desk on the terminal until it is over.
-pub(super) fn turn(desk: &mut dyn Desk, reports: &Receiver<Report>) -> Result<()> {
+pub(super) fn turn<R>(desk: &mut dyn Desk<Report = R>, reports: &Receiver<R>) -> Result<()> {
     if !Screen::is_there() {
         return Err(Fault::new("there is no terminal here").help("run it in a terminal, not in a pipe").of_the_call());
     }
@@ -156,7 +160,7 @@ struct Clock(Instant);
 impl Clock {
     /// Lets time pass until an instant, if it does; whether there is something new to show. While nothing moves, time
     /// goes by unseen.
-    fn pass(&mut self, desk: &mut dyn Desk, until: Instant) -> bool {
+    fn pass<R>(&mut self, desk: &mut dyn Desk<Report = R>, until: Instant) -> bool {
         let seconds = until.saturating_duration_since(self.0).as_secs_f64();
         self.0 = self.0.max(until);
         desk.beat().is_some() && desk.advance(seconds)
@@ -164,7 +168,12 @@ impl Clock {
 }
 
 /// Takes an event: whether something changed; nothing where it is the end.
-fn take(desk: &mut dyn Desk, screen: &mut Screen, clock: &mut Clock, event: Event) -> Result<Option<bool>> {
+fn take<R>(
+    desk: &mut dyn Desk<Report = R>,
+    screen: &mut Screen,
+    clock: &mut Clock,
+    event: Event,
+) -> Result<Option<bool>> {
     Ok(match event {
         Event::End => None,
         Event::Terminal(event::Event::Key(key), at) if key.kind != KeyEventKind::Release => {

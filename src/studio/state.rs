@@ -7,6 +7,7 @@ use super::Place;
 use super::aligning::Aligning;
 use super::editor::{Editor, Left};
 use super::face_desk::FaceDesk;
+use super::following::{Following, Footage};
 use super::listening::{Listened, SoundView};
 use super::look::Colours;
 use super::overlay::Overlay;
@@ -36,6 +37,10 @@ pub struct State {
     pub busy: Option<String>,
     /// The search for times that is under way.
     pub aligning: Option<Aligning>,
+    /// The following of a face that is under way.
+    pub following: Option<Following>,
+    /// The video of the clip on the desk.
+    pub footage: Footage,
     /// How sound is shown.
     pub view: SoundView,
     /// Whether the pitch of the voice is shown.
@@ -82,6 +87,8 @@ pub struct Open {
     pub left: BTreeMap<usize, Left>,
     /// The clips whose times were looked for: what was taken back is not done again unasked.
     pub aligned: BTreeSet<usize>,
+    /// The clips whose face was followed: what was taken back is not done again unasked.
+    pub followed: BTreeSet<usize>,
     /// What was heard of the clips so far, by their numbers.
     pub heard: BTreeMap<usize, Listened>,
     /// What the last search found odd of a clip as a whole.
@@ -131,6 +138,7 @@ impl Open {
             chosen: 0,
             left: BTreeMap::new(),
             aligned: BTreeSet::new(),
+            followed: BTreeSet::new(),
             heard: BTreeMap::new(),
             notes: BTreeMap::new(),
         }
@@ -156,6 +164,8 @@ impl State {
             message: None,
             busy: None,
             aligning: None,
+            following: None,
+            footage: Footage::default(),
             view: SoundView::default(),
             tone: false,
             latency: None,

@@ -18,11 +18,12 @@ use super::picture::FacePicture;
 use super::state::Hear;
 use super::state::{Open, State};
 use super::voice::Voice;
-use super::{Action, Place, face_edits, keys, places, tap_desk, work};
+use super::{Action, Place, face_edits, following, keys, places, tap_desk, work};
 use crate::disk::Result;
 use crate::drawing::Drawing;
 use crate::face::Created;
 use crate::photo::Photo;
+use crate::project::Followed;
 use crate::project::{Finding, Lesson};
 use crate::speech::{Alignment, Heard, Spectrogram};
 
@@ -60,6 +61,28 @@ pub enum Report {
         root: PathBuf,
         /// What was found.
         found: Vec<(usize, Result<Alignment>)>,
+    },
+    /// How far the following of a face is: frames done, of how many.
+    Following(usize, Option<usize>),
+    /// The face in a clip's video was followed, or could not be.
+    Followed {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// What was found.
+        found: Box<Result<Followed>>,
+    },
+    /// A frame of a clip's video was read, or cannot be.
+    FrameRead {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Which frame.
+        number: u32,
+        /// What it shows.
+        photo: Box<Result<Photo>>,
     },
     /// Something was heard in the sound of a clip; nothing where listening broke off.
     Listened {
@@ -226,6 +249,9 @@ impl Studio {
         editor.go(&clips[editor.clip], frame);
         editor.playing = (!over).then_some(at);
         let new = over || editor.frame() != before;
+        if let Some(job) = following::missing(&mut self.state) {
+            self.start(job);
+        }
         if over {
             self.state.message.take_if(|m| m.text == SILENT);
         }
@@ -291,6 +317,17 @@ impl Studio {
             Report::Aligned { root, found } => {
                 self.under_way -= 1;
                 if let Some(job) = aligning::found(&mut self.state, &root, found) {
+                    self.start(job);
+                }
+            }
+            Report::Following(done, of) => following::goes_on(&mut self.state, (done, of)),
+            Report::Followed { root, clip, found } => {
+                self.under_way -= 1;
+                following::found(&mut self.state, &root, clip, *found);
+            }
+            Report::FrameRead { root, clip, number, photo } => {
+                self.under_way -= 1;
+                if let Some(job) = following::read(&mut self.state, &root, clip, number, *photo) {
                     self.start(job);
                 }
             }

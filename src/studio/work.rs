@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
@@ -48,6 +49,28 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
             Job::Align { root, job } => {
                 let found = catch_unwind(AssertUnwindSafe(|| aligner.run(&job)));
                 reports.send(Report::Aligned { root, found: found.unwrap_or_default() })
+            }
+            Job::Follow { root, clip, job, stop } => {
+                let mut told = 0;
+                let mut go_on = |done: usize, of: Option<usize>| {
+                    // A report a percent, or a frame where nobody knows how many there are.
+                    let now = of.map_or(done / 10, |of| 100 * done / of.max(1));
+                    if now != told {
+                        told = now;
+                        let _ = reports.send(Report::Following(done, of));
+                    }
+                    !stop.load(Ordering::Relaxed)
+                };
+                let found = catch_unwind(AssertUnwindSafe(|| job.run(&mut go_on)));
+                let broken =
+                    || Fault::new("the face cannot be followed").help("please report what `lianpu track` says");
+                let found = Box::new(found.unwrap_or_else(|_| Err(broken())));
+                reports.send(Report::Followed { root, clip, found })
+            }
+            Job::Frame { root, clip, source, number } => {
+                let read = catch_unwind(AssertUnwindSafe(|| source.frame(number)));
+                let photo = Box::new(read.unwrap_or_else(|_| Err(broken_photo())));
+                reports.send(Report::FrameRead { root, clip, number, photo })
             }
             Job::Spectrogram { root, clip, sound } => {
                 let made = catch_unwind(|| Listening::Spectrogram(Arc::new(Spectrogram::of(&sound))));

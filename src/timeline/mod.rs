@@ -12,13 +12,11 @@ mod mouth;
 mod ratios;
 mod score;
 mod score_file;
-mod smooth;
 
 pub use blink::Blink;
 pub use ease::Ease;
 pub use mouth::{MouthKey, Origin, Spoken};
 pub use score::{Key, KeyValue, Marker, Range, Score, Track};
-pub use smooth::smooth_keeping_peaks;
 
 use crate::emotion::{Record, TrackRow, Tracks};
 use crate::pose::{Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};

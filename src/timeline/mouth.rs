@@ -168,14 +168,15 @@ fn rest_around_the_author_s(keys: &mut Vec<MouthKey>) {
     *keys = all;
 }
 
-/// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`). The table counts
-/// lips in MNS0 and a pose in M, which are one on most faces; where M is MW0's, a figure opens a little less.
+/// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`), the emotion's part in
+/// it. The table counts lips in MNS0 and a pose in M, which are one on most faces; where M is MW0's, a figure opens a
+/// little less.
 fn of_track(row: &crate::emotion::TrackRow) -> MouthPose {
     MouthPose {
         upper: -row.mouth.up,
         lower: row.mouth.down,
         corner_in: -f64::midpoint(row.mouth.left, row.mouth.right),
-        speaking: 1.0,
+        speaking: 2.0,
         ..MouthPose::REST
     }
 }

@@ -1,8 +1,8 @@
 //! The seven ratios over time: the record, the author's range edits in it, her keys over it.
 
 use super::ease::Curve;
-use super::{KeyValue, Range, Score, smooth_keeping_peaks};
-use crate::emotion::Record;
+use super::{KeyValue, Range, Score};
+use crate::emotion::{Record, smooth_keeping_peaks};
 use crate::pose::{Emotion, Ratios};
 
 #[derive(Debug, Clone)]

@@ -137,6 +137,8 @@ pub struct Score {
     /// The checksum of the sound and the script that an alignment found the times with; none where they came
     /// otherwise.
     pub aligned: Option<String>,
+    /// The checksum of the video and the calibration that the record was tracked with; none where it came otherwise.
+    pub tracked: Option<String>,
     /// Seed of what is random.
     pub seed: u64,
     /// Whether blinks are made up between her own.
@@ -152,6 +154,7 @@ impl Default for Score {
             pins: Vec::new(),
             guessed: false,
             aligned: None,
+            tracked: None,
             seed: 1,
             auto_blink: true,
         }

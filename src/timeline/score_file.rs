@@ -26,6 +26,7 @@ impl Score {
         // Anything else was not written by this program, and is the checksum of nothing.
         let is_checksum = |s: &String| s.len() == 8 && s.bytes().all(|b| b.is_ascii_hexdigit());
         score.aligned = file.aligned.filter(is_checksum);
+        score.tracked = file.tracked.filter(is_checksum);
         for key in file.keys {
             let line = line_of(key.span());
             score.keys.push(key.into_inner().read().map_err(|f| f.line(line))?);
@@ -63,6 +64,9 @@ impl Score {
         }
         if let Some(checksum) = &self.aligned {
             let _ = writeln!(out, "aligned = \"{checksum}\"");
+        }
+        if let Some(checksum) = &self.tracked {
+            let _ = writeln!(out, "tracked = \"{checksum}\"");
         }
         for key in self.sorted_keys() {
             let _ = write!(out, "\n[[key]]\ntrack = \"{}\"\ntime = {}\n", name_of(key.value.track()), Float(key.time));
@@ -109,6 +113,8 @@ struct File {
     guessed: bool,
     #[serde(default)]
     aligned: Option<String>,
+    #[serde(default)]
+    tracked: Option<String>,
     #[serde(default, rename = "key")]
     keys: Vec<toml::Spanned<FileKey>>,
     #[serde(default, rename = "range")]

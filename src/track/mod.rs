@@ -4,7 +4,26 @@
 //! It owns the frames of a video as a stream, and how a face is followed through them. What a shape means is the room
 //! `emotion`'s.
 
-use crate::emotion::{Record, Tracks};
+mod by_aam;
+mod follow;
+mod frames;
+mod gather;
+mod gaze;
+mod live;
+mod measure;
+mod regions;
+mod relay;
+mod said;
+
+pub use by_aam::by_aam;
+pub use follow::Follower;
+pub use frames::{Ffmpeg, Frame, Frames, Scan, Source, Y4m, sound_of};
+pub use live::Live;
+pub use regions::by_regions;
+pub use relay::relay;
+
+use crate::disk::Fault;
+use crate::emotion::{Choice, Record, Tracks};
 
 /// What was found in a video.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,4 +34,33 @@ pub struct Tracked {
     pub tracks: Tracks,
     /// What there is to say of it: frames lost, weak calibration.
     pub notes: Vec<String>,
+}
+
+/// How ratios are read from shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Which of the solutions of eq. 6.
+    pub choice: Choice,
+    /// Whether ratios are told apart from speech, blinks, glances and turns of the head.
+    pub apart: bool,
+}
+
+impl Options {
+    /// Eq. 6 as the paper has it: whole shapes, negative ratios kept.
+    pub const PAPER: Self = Self { choice: Choice::Paper, apart: false };
+}
+
+impl Default for Options {
+    /// What comes nearest to known ratios: mixes without negative ratios, told apart from other movements.
+    fn default() -> Self {
+        Self { choice: Choice::NonNegative, apart: true }
+    }
+}
+
+/// Is told how many frames are done, of how many where that is known, and says whether to go on.
+pub type GoOn<'a> = &'a mut dyn FnMut(usize, Option<usize>) -> bool;
+
+/// The fault of what was stopped.
+fn stopped() -> Fault {
+    Fault::new("the tracking was stopped").help("nothing was changed; start it again when you like")
 }

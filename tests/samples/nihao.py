@@ -27,8 +27,8 @@ WORD, PHONEME = 1, 7
 CALLBACK = c.CFUNCTYPE(c.c_int, c.POINTER(c.c_short), c.c_int, c.POINTER(Event))
 
 
-def speak(pinyin):
-    """Samples, their rate, and (kind, sample, phoneme) of every event."""
+def speak(pinyin, pace=110):
+    """Samples, their rate, and (kind, sample, phoneme) of every event; `pace` is words a minute."""
     lib = c.CDLL("libespeak-ng.so.1")
     rate = lib.espeak_Initialize(2, 0, None, 1)  # synchronous, with phoneme events
     samples, events = [], []
@@ -47,7 +47,7 @@ def speak(pinyin):
     keep = CALLBACK(collect)
     lib.espeak_SetSynthCallback(keep)
     assert lib.espeak_SetVoiceByName(b"cmn-latn-pinyin+f3") == 0, "espeak-ng lacks the voice cmn-latn-pinyin"
-    lib.espeak_SetParameter(1, 110, 0)  # words a minute
+    lib.espeak_SetParameter(1, pace, 0)
     text = (pinyin + ".").encode()
     lib.espeak_Synth(text, len(text) + 1, 0, 1, 0, 1, None, None)
     return samples, rate, events
@@ -88,4 +88,5 @@ def main(folder):
             out.write(f'            text = "{label}"\n')
 
 
-main(sys.argv[1])
+if __name__ == "__main__":
+    main(sys.argv[1])

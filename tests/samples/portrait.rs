@@ -15,9 +15,13 @@
 //!
 //! Further pictures, for trying things out: `tilted`, `sidelight`, `small`, `open`.
 
+#![allow(dead_code, reason = "the frames of xiyang use parts of what paints that this does not")]
+
 use std::error::Error;
 use std::path::PathBuf;
 
+#[path = "portrait/act.rs"]
+mod act;
 #[path = "portrait/body.rs"]
 mod body;
 #[path = "portrait/curve.rs"]
@@ -28,6 +32,8 @@ mod eye;
 mod figure;
 #[path = "portrait/film.rs"]
 mod film;
+#[path = "portrait/flesh.rs"]
+mod flesh;
 #[path = "portrait/hair.rs"]
 mod hair;
 #[path = "portrait/head.rs"]

@@ -1,5 +1,31 @@
 //! A calibration: the shapes of a person's seven emotions, by which ratios are told.
 
+mod calibrate;
+mod closer;
+mod expressions;
+mod file;
+mod files;
+mod finding;
+mod inputs;
+mod kept;
+mod marks;
+mod movements;
+mod moves;
+mod patches;
+mod person;
+mod quality;
+mod settle;
+mod spread;
+mod warped;
+
+pub use calibrate::{Calibrated, calibrate};
+pub use file::CalibrationFile;
+pub use files::ShotFiles;
+pub use inputs::{Inputs, ShotInput};
+pub use kept::{CALIBRATION, Kept};
+pub use marks::Marks;
+pub use quality::{Quality, Retake, ShotQuality};
+
 use super::{Binding, Choice, Decomposition, Reading};
 use crate::aam::Similarity;
 use crate::disk::{Fault, Result};
@@ -34,7 +60,12 @@ pub struct Calibration {
     /// The shapes in the frame of the neutral one's pupils: distance 1, origin midway, laid over it.
     laid: [Vec<Point>; 7],
     decomposition: Decomposition,
+    /// The same with movements told apart that are no emotion.
+    apart: Decomposition,
 }
+
+/// How far points are off that movements are told apart by, in pupil distances.
+const NOISE: f64 = 0.03;
 
 impl Calibration {
     /// From the seven shapes in canonical order.
@@ -57,7 +88,10 @@ impl Calibration {
             *to = over(&shape.points, &first).ok_or_else(|| Fault::new("a shape has no extent, or other points"))?;
         }
         let decomposition = Decomposition::new(&laid)?;
-        Ok(Self { shapes, binding, laid, decomposition })
+        let apart = decomposition.clone();
+        let mut own = Self { shapes, binding, laid, decomposition, apart };
+        own.apart = own.decomposition.apart_from(&own.movements(), NOISE)?;
+        Ok(own)
     }
 
     /// The shapes as they were given, by emotion.
@@ -82,6 +116,15 @@ impl Calibration {
     #[must_use]
     pub fn lay(&self, shape: &[Point]) -> Option<Similarity> {
         (shape.len() == self.laid[0].len()).then(|| Similarity::between(shape, &self.laid[0]))?
+    }
+
+    /// The ratios of a shape in whatever place, turn and size, told apart from what it does besides: speech, blinks,
+    /// glances, a turning head. None for another number of points.
+    #[must_use]
+    pub fn read_apart(&self, shape: &[Point], choice: Choice) -> Option<Reading> {
+        let q = self.lay(shape)?;
+        let laid: Vec<Point> = shape.iter().map(|p| q.apply(*p)).collect();
+        Some(self.apart.read(&laid, choice))
     }
 
     /// The ratios of a shape in whatever place, turn and size; none for another number of points.

@@ -52,7 +52,7 @@ pub struct Expression {
 }
 
 /// Numbers of an [`Expression`], and columns of the table after the first.
-const COLUMNS: usize = 20;
+pub const EXPRESSION_NUMBERS: usize = 20;
 /// The first of the columns that say how much of something there is, which is never less than none.
 const FIRST_AMOUNT: usize = 13;
 /// How far a single ratio counts: the paper's decomposition gives values a little outside 0 to 1, a slip gives any.
@@ -62,26 +62,42 @@ const RATIOS: (f64, f64) = (-1.0, 2.0);
 const BEYOND: f64 = 0.25;
 
 impl Expression {
-    /// The expression of a mix: the table's rows blended by the ratios (paper eq. 6), each number kept within a
-    /// quarter of its column's span beyond what any one emotion asks for.
+    /// The expression of a mix as everybody has it: [`Expressions::general`] blended.
     #[must_use]
     pub fn of(ratios: &Ratios) -> Self {
-        let table = &*TABLE;
-        let neutral = &table.rows[0];
-        let mut mix = *neutral;
-        for emotion in &Emotion::ALL[1..] {
-            let share = within(ratios[*emotion], RATIOS.0, RATIOS.1);
-            for ((sum, full), rest) in mix.iter_mut().zip(&table.rows[emotion.index()]).zip(neutral) {
-                *sum += share * (full - rest);
-            }
-        }
-        for (sum, (low, high)) in mix.iter_mut().zip(&table.spans) {
-            *sum = within(*sum, *low, *high);
-        }
-        Self::from_array(mix)
+        Expressions::general().mix(ratios)
     }
 
-    const fn from_array(a: [f64; COLUMNS]) -> Self {
+    /// Its numbers, in the order of the fields.
+    #[must_use]
+    pub const fn to_array(&self) -> [f64; EXPRESSION_NUMBERS] {
+        [
+            self.brow_in,
+            self.brow_inner,
+            self.brow_middle,
+            self.brow_outer,
+            self.lid_upper,
+            self.lid_lower,
+            self.iris,
+            self.look_down,
+            self.upper,
+            self.lower,
+            self.corner_out,
+            self.corner_down,
+            self.thick,
+            self.pout,
+            self.sneer,
+            self.cheek,
+            self.crease,
+            self.frown,
+            self.wrinkle,
+            self.forehead,
+        ]
+    }
+
+    /// From its numbers, in the order of the fields.
+    #[must_use]
+    pub const fn from_array(a: [f64; EXPRESSION_NUMBERS]) -> Self {
         Self {
             brow_in: a[0],
             brow_inner: a[1],
@@ -107,15 +123,73 @@ impl Expression {
     }
 }
 
-struct Table {
-    rows: [[f64; COLUMNS]; 7],
+/// The expressions of the seven emotions: everybody's, or a person's own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expressions {
+    rows: [[f64; EXPRESSION_NUMBERS]; 7],
     /// Between which values a mix of each column is kept.
-    spans: [(f64, f64); COLUMNS],
+    spans: [(f64, f64); EXPRESSION_NUMBERS],
+}
+
+impl Expressions {
+    /// Everybody's: the table of the recipe.
+    #[must_use]
+    pub fn general() -> &'static Self {
+        &TABLE
+    }
+
+    /// From the expression of each emotion, in canonical order. What is no number is everybody's; and no number is
+    /// taken farther than a mix of everybody's may go: no face is turned inside out.
+    #[must_use]
+    pub fn of(list: &[Expression; 7]) -> Self {
+        let general = Self::general();
+        let mut rows = list.map(|e| e.to_array());
+        for (row, usual) in rows.iter_mut().zip(&general.rows) {
+            for ((v, usual), (low, high)) in row.iter_mut().zip(usual).zip(&general.spans) {
+                *v = if v.is_finite() { within(*v, *low, *high) } else { *usual };
+            }
+        }
+        Self { spans: spans(&rows), rows }
+    }
+
+    /// The expression of an emotion alone.
+    #[must_use]
+    pub fn expression(&self, emotion: Emotion) -> Expression {
+        Expression::from_array(self.rows[emotion.index()])
+    }
+
+    /// The expression of a mix: the rows blended by the ratios (paper eq. 6), each number kept within a quarter of its
+    /// column's span beyond what any one emotion asks for.
+    #[must_use]
+    pub fn mix(&self, ratios: &Ratios) -> Expression {
+        let neutral = &self.rows[0];
+        let mut mix = *neutral;
+        for emotion in &Emotion::ALL[1..] {
+            let share = within(ratios[*emotion], RATIOS.0, RATIOS.1);
+            for ((sum, full), rest) in mix.iter_mut().zip(&self.rows[emotion.index()]).zip(neutral) {
+                *sum += share * (full - rest);
+            }
+        }
+        for (sum, (low, high)) in mix.iter_mut().zip(&self.spans) {
+            *sum = within(*sum, *low, *high);
+        }
+        Expression::from_array(mix)
+    }
+}
+
+/// Between which values mixes of rows are kept.
+fn spans(rows: &[[f64; EXPRESSION_NUMBERS]; 7]) -> [(f64, f64); EXPRESSION_NUMBERS] {
+    std::array::from_fn(|i| {
+        let column = || rows.iter().map(|row| row[i]);
+        let (low, high) = (column().fold(f64::INFINITY, f64::min), column().fold(f64::NEG_INFINITY, f64::max));
+        let beyond = BEYOND * (high - low);
+        (if i < FIRST_AMOUNT { low - beyond } else { 0.0 }, high + beyond)
+    })
 }
 
 /// `emotions.csv`. The table is part of the program, so a fault in it is ours and the tests'.
-static TABLE: LazyLock<Table> = LazyLock::new(|| {
-    let mut rows = [[0.0; COLUMNS]; 7];
+static TABLE: LazyLock<Expressions> = LazyLock::new(|| {
+    let mut rows = [[0.0; EXPRESSION_NUMBERS]; 7];
     for line in include_str!("emotions.csv").lines().skip(1) {
         let mut cells = line.split(',');
         let Some(emotion) = cells.next().and_then(|c| c.parse::<Emotion>().ok()) else { continue };
@@ -123,13 +197,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
             *number = cell.parse().unwrap_or(0.0);
         }
     }
-    let spans = std::array::from_fn(|i| {
-        let column = || rows.iter().map(|row| row[i]);
-        let (low, high) = (column().fold(f64::INFINITY, f64::min), column().fold(f64::NEG_INFINITY, f64::max));
-        let beyond = BEYOND * (high - low);
-        (if i < FIRST_AMOUNT { low - beyond } else { 0.0 }, high + beyond)
-    });
-    Table { rows, spans }
+    Expressions { spans: spans(&rows), rows }
 });
 
 #[cfg(test)]
@@ -147,12 +215,16 @@ mod tests {
             let at = printed[from..].find(&format!(" {name}: ")).unwrap_or_else(|| panic!("{name} out of order"));
             from += at + 1;
         }
-        assert_eq!(heading.len(), COLUMNS);
+        assert_eq!(heading.len(), EXPRESSION_NUMBERS);
         let rows: Vec<&str> = text.lines().skip(1).collect();
         assert_eq!(rows.len(), 7);
         for (row, emotion) in rows.iter().zip(Emotion::ALL) {
             assert!(row.starts_with(emotion.name()));
-            assert_eq!(row.split(',').skip(1).filter(|c| c.parse::<f64>().is_ok()).count(), COLUMNS, "{row}");
+            assert_eq!(
+                row.split(',').skip(1).filter(|c| c.parse::<f64>().is_ok()).count(),
+                EXPRESSION_NUMBERS,
+                "{row}"
+            );
         }
     }
 

@@ -92,9 +92,11 @@ impl Lips {
     /// The lips of a pose: the emotion's own at rest, its corners under speech's openings while a syllable is spoken.
     pub(super) fn pose(&self, e: &Expression, mouth: &MouthPose) -> Mouth {
         let speech = sound(mouth);
-        let spoken = speech.speaking.max(speech.closure);
+        let spoken = speech.speaking.max(speech.closure).min(1.0);
+        // A mouth that was measured has the emotion's opening and width in it already.
+        let measured = within(speech.speaking - 1.0, 0.0, 1.0);
         let unit = self.unit;
-        let felt = [UPPER_SPEAKING, LOWER_SPEAKING].map(|left| unit * lerp(1.0, left, spoken));
+        let felt = [UPPER_SPEAKING, LOWER_SPEAKING].map(|left| unit * lerp(1.0, left, spoken) * (1.0 - measured));
         let felt = [e.upper * felt[0], e.lower * felt[1]];
         let lower_lip = (speech.lower_lip + speech.lower_thinner - speech.thinner) * self.thickness[1];
         let said = [speech.upper * unit, speech.lower * unit + lower_lip];
@@ -102,14 +104,15 @@ impl Lips {
         // the emotion has narrowed already gives way less.
         let gathered = within(speech.corner_in / 0.22, 0.0, 1.0);
         let kept = lerp(1.0, CORNERS_SPEAKING, spoken);
-        let out = e.corner_out * kept * self.width;
-        let already = within(1.0 + 2.0 * e.corner_out * kept, 0.4, 1.0).powi(2);
+        let aside = e.corner_out * kept * (1.0 - measured);
+        let out = aside * self.width;
+        let already = within(1.0 + 2.0 * aside, 0.4, 1.0).powi(2);
         let narrowing = speech.corner_in * self.width * if speech.corner_in > 0.0 { already } else { 1.0 };
         let moves = Moves {
             inner: [said[0] + felt[0], said[1] + felt[1]],
             felt: felt[1] - felt[0],
             out: out - narrowing,
-            down: e.corner_down * unit * kept * (1.0 - 0.6 * gathered) + speech.corner_down * unit,
+            down: e.corner_down * unit * lerp(kept, 1.0, measured) * (1.0 - 0.6 * gathered) + speech.corner_down * unit,
             thick: [(1.0 - speech.thinner) * e.thick, (1.0 - speech.lower_thinner) * e.thick],
             closure: speech.closure,
             bite: speech.bite,
@@ -190,6 +193,6 @@ fn sound(mouth: &MouthPose) -> MouthPose {
         closure: within(mouth.closure, 0.0, 1.0),
         bite: within(mouth.bite, 0.0, 1.0),
         tongue: within(mouth.tongue, 0.0, 1.0),
-        speaking: within(mouth.speaking, 0.0, 1.0),
+        speaking: within(mouth.speaking, 0.0, 2.0),
     }
 }

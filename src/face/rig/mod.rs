@@ -16,7 +16,7 @@ mod prepare;
 mod proportions;
 
 pub use deformed::Deformed;
-pub use emotions::Expression;
+pub use emotions::{EXPRESSION_NUMBERS, Expression, Expressions};
 pub use eye::Eye;
 pub use mouth::Mouth;
 pub use neutral::Neutral;

@@ -4,7 +4,7 @@ use super::deformed::Deformed;
 use super::eye::Socket;
 use super::lips::Lips;
 use super::prepare::{close_mouth, make_sound, proportion, rest_brows, symmetrise};
-use super::{Expression, Eye, Proportions, within};
+use super::{Expression, Expressions, Eye, Proportions, within};
 use crate::face::{FeaturePoint as P, Points, Units};
 use crate::geometry::{Affine, Point, Vec2};
 use crate::pose::{Head, Pose};
@@ -38,6 +38,7 @@ pub struct Neutral {
     units: Units,
     lips: Lips,
     sockets: [Socket; 2],
+    expressions: Expressions,
 }
 
 impl Neutral {
@@ -56,7 +57,20 @@ impl Neutral {
         let lips = Lips::of(&mut points);
         let units = Units::of(&points);
         let sockets = [Socket::of(&points, EYES[0], -1.0, proportions), Socket::of(&points, EYES[1], 1.0, proportions)];
-        Self { points, units, lips, sockets }
+        Self { points, units, lips, sockets, expressions: Expressions::general().clone() }
+    }
+
+    /// The same face, showing the emotions as a person of these expressions does.
+    #[must_use]
+    pub fn with_expressions(mut self, expressions: Expressions) -> Self {
+        self.expressions = expressions;
+        self
+    }
+
+    /// How it shows the emotions.
+    #[must_use]
+    pub fn expressions(&self) -> &Expressions {
+        &self.expressions
     }
 
     /// The points at rest, as drawn.
@@ -74,7 +88,12 @@ impl Neutral {
     /// The face in a pose. Any pose gives finite points; lids and inner edges of the lips do not cross.
     #[must_use]
     pub fn pose(&self, pose: &Pose) -> Deformed {
-        let expression = Expression::of(&pose.ratios);
+        self.express(self.expressions.mix(&pose.ratios), pose)
+    }
+
+    /// The face in a pose, with this expression instead of that of the pose's ratios.
+    #[must_use]
+    pub fn express(&self, expression: Expression, pose: &Pose) -> Deformed {
         let mut points = self.points;
         let mouth = self.lips.pose(&expression, &pose.mouth);
         mouth.place(&mut points);

@@ -26,7 +26,7 @@ pub use palette::{Chosen, Palette};
 pub use style::{BrowStyle, HairCurve, NoseStyle, STYLE_FORMAT, Style};
 
 use crate::drawing::{Item, Oklch};
-use crate::face::rig::Neutral;
+use crate::face::rig::{Expressions, Neutral};
 use crate::face::{Face, FeaturePoint as P, HairKind, Points, to_face_frame};
 use crate::geometry::{Affine, Point, Rect, brush};
 
@@ -137,7 +137,16 @@ impl Cartoon {
     /// Makes a cartoon of a face. Everything that no pose changes is made here.
     #[must_use]
     pub fn new(face: &Face, style: &Style) -> Self {
-        Self::with_ink(Arc::new(face.clone()), Arc::new(style.clone()), 1.0)
+        Self::with_ink(Arc::new(face.clone()), Arc::new(style.clone()), Expressions::general().clone(), 1.0)
+    }
+
+    /// The same, showing the emotions as a person of these expressions does.
+    #[must_use]
+    pub fn with_expressions(self, expressions: Expressions) -> Self {
+        let mut own = Self::with_ink(self.face, self.style, expressions, self.bolder);
+        own.extras = self.extras;
+        own.fingerprint = own.draw(&crate::pose::Pose::default()).fingerprint();
+        own
     }
 
     /// The same with things of an author's own on it.
@@ -175,17 +184,22 @@ impl Cartoon {
     /// The figure as small pictures need it: the face without what is round it, its lines `bolder` times as wide.
     #[must_use]
     pub fn close_up(&self, bolder: f64) -> Self {
-        let mut close = Self::with_ink(Arc::clone(&self.face), Arc::clone(&self.style), self.bolder * bolder);
+        let mut close = Self::with_ink(
+            Arc::clone(&self.face),
+            Arc::clone(&self.style),
+            self.neutral.expressions().clone(),
+            self.bolder * bolder,
+        );
         close.extras.clone_from(&self.extras);
         close.view = self.face_view;
         close
     }
 
-    fn with_ink(face: Arc<Face>, style: Arc<Style>, bolder: f64) -> Self {
+    fn with_ink(face: Arc<Face>, style: Arc<Style>, expressions: Expressions, bolder: f64) -> Self {
         let places = face.places();
         let place = to_face_frame(places[P::P3_6], places[P::P3_5]);
         let measured = Points(places.0.map(|p| place * p));
-        let neutral = Neutral::of(&measured, &style.proportions);
+        let neutral = Neutral::of(&measured, &style.proportions).with_expressions(expressions);
         let points = neutral.points();
         let kind = hair_kind(&face, &style);
 

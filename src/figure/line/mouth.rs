@@ -112,12 +112,15 @@ impl Mouth {
     /// straight where closed, rounder the further it opens and the narrower it gets.
     fn model(&self, mouth: &MouthPose, frame: &Frame) -> Model {
         let parting = mouth.parting();
-        let kept = 0.5 * EMOTION_WHILE_SPEAKING * frame.opening * (1.0 - mouth.closure);
+        // A mouth that was measured has the emotion's opening and width in it already.
+        let measured = (mouth.speaking - 1.0).clamp(0.0, 1.0);
+        let kept = 0.5 * EMOTION_WHILE_SPEAKING * frame.opening * (1.0 - mouth.closure) * (1.0 - measured);
         let upper = (mouth.upper * parting - BITE * mouth.bite) * self.unit - kept;
         let lower = mouth.lower * parting * self.unit + kept;
         // A mouth that the emotion has narrowed already gives way less to a rounded vowel.
-        let narrowing = mouth.corner_in * self.width * (2.0 * frame.half / self.width).min(1.0).powi(2);
-        let half = (frame.half - narrowing).max(NARROWEST * self.width);
+        let wide = lerp(frame.half, 0.5 * self.width, measured);
+        let narrowing = mouth.corner_in * self.width * (2.0 * wide / self.width).min(1.0).powi(2);
+        let half = (wide - narrowing).max(NARROWEST * self.width);
         let narrowed = ((1.0 - 2.0 * half / self.width) / 0.34).clamp(0.0, 1.0);
         let gap = (lower - upper).max(0.0);
         let mut round = (1.9 * gap / (2.0 * half)).clamp(0.0, 1.0);

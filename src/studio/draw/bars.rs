@@ -6,7 +6,7 @@ use ratatui::style::{Modifier, Style};
 
 use super::{BOLD, DIM, cells, put, put_short};
 use crate::pose::Emotion;
-use crate::project::Clip;
+use crate::project::{Clip, Concern};
 use crate::studio::editor::Editor;
 use crate::studio::edits;
 use crate::studio::keys::{Place, help_of};
@@ -110,12 +110,16 @@ fn lines(editor: &Editor, clip: &Clip, width: u16, colours: Colours) -> Vec<(Str
         let mark = match confidence {
             _ if clip.score.pins.contains(&index) => "   by hand".to_owned(),
             _ if guessed => "   guessed?".to_owned(),
-            Some(_) if doubt.is_some_and(|d| !d.heard) => "   not heard!".to_owned(),
+            Some(_) if doubt.is_some_and(|d| d.what == Concern::NotHeard) => "   not heard!".to_owned(),
             Some(c) => format!("   {:.0} % sure{}", c * 100.0, if doubtful { "!" } else { "" }),
             None => String::new(),
         };
         let text = format!("{}{reading}   {:.3} to {:.3} s{mark}", syllable.text, interval.start, interval.end);
         lines.push((text, style));
+    }
+    let lost = clip.lost().into_iter().find(|d| (d.start - 1e-9..d.end).contains(&editor.cursor));
+    if let Some(lost) = lost {
+        lines.push((format!("{}!", clip.told(&lost)), colours.warning()));
     }
     let (_, shape) = editor.timeline.mouth(editor.cursor);
     let shape = shape.map_or("rest".into(), |s| s.to_string());

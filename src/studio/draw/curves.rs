@@ -7,13 +7,14 @@ use ratatui::style::Modifier;
 use super::sound::Dots;
 use super::{DIM, cells, put};
 use crate::pose::Emotion;
+use crate::project::{Clip, Concern};
 use crate::studio::editor::Editor;
 use crate::studio::look::Colours;
 
 /// A curve that never gets this far from zero in sight has no letter: all of those lie on one line.
 const NOTHING: f64 = 0.02;
 
-pub(super) fn curves(buffer: &mut Buffer, area: Rect, editor: &Editor, colours: Colours) {
+pub(super) fn curves(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Clip, colours: Colours) {
     let window = editor.window;
     let columns = usize::from(area.width) * 2;
     let rows = usize::from(area.height) * 4;
@@ -29,6 +30,18 @@ pub(super) fn curves(buffer: &mut Buffer, area: Rect, editor: &Editor, colours: 
         let text = format!("{value:.1}").replace("0.0", "0").replace("1.0", "1").replace("0.", ".");
         let wide = cells(&text);
         put(buffer, area.x.saturating_sub(wide), area.y + (row(value) / 4) as u16, wide, &text, DIM);
+    }
+    lost(buffer, area, editor, clip, colours);
+    // What was tracked stays in sight, faint, where an author's edits and keys have changed it.
+    if let Some(record) = &clip.record {
+        let mut dots = Dots::new(area);
+        for (column, now) in samples.iter().enumerate() {
+            let Some((tracked, _)) = record.at(time(column)) else { continue };
+            for emotion in Emotion::ALL.into_iter().filter(|e| (tracked[*e] - now[*e]).abs() > NOTHING) {
+                dots.set(column, row(tracked[emotion]));
+            }
+        }
+        dots.put(buffer, DIM);
     }
     let mut edge: Vec<Vec<Emotion>> = vec![Vec::new(); usize::from(area.height)];
     let mut peaks = Vec::new();
@@ -71,5 +84,20 @@ pub(super) fn curves(buffer: &mut Buffer, area: Rect, editor: &Editor, colours: 
         let (text, style) = letter(emotion);
         let x = area.x + (column / 2) as u16;
         put(buffer, x, area.y + (y / 4) as u16, 1, &text, style);
+    }
+}
+
+/// Stretches in which the video shows no face, or shows it unsurely: the curves are bridged there.
+fn lost(buffer: &mut Buffer, area: Rect, editor: &Editor, clip: &Clip, colours: Colours) {
+    let window = editor.window;
+    for doubt in clip.lost() {
+        let sign = if doubt.what == Concern::FaceLost { "░" } else { "·" };
+        let (start, end) = (window.column(doubt.start, area.width), window.column(doubt.end, area.width));
+        // A single frame is seen too.
+        for column in start.max(0)..end.max(start + 1).min(i32::from(area.width)) {
+            for y in area.y..area.bottom() {
+                put(buffer, area.x + column as u16, y, 1, sign, colours.warning());
+            }
+        }
     }
 }

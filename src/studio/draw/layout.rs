@@ -4,6 +4,7 @@ use ratatui::layout::Rect;
 
 use super::has_no_room;
 use crate::studio::listening::SoundView;
+use crate::studio::photo_picture;
 use crate::studio::picture::FacePicture;
 use crate::studio::state::State;
 use crate::studio::{Lane, Place};
@@ -14,6 +15,9 @@ const NAMES: u16 = 9;
 
 /// Cells right of the lanes, for the letters of the curves.
 const LETTERS: u16 = 5;
+
+/// Columns that the panel keeps beside the video.
+const PANEL: u16 = 38;
 
 /// Rows from which on there is room for every lane of keys, and for wave and spectrogram both.
 const TALL: u16 = 26;
@@ -26,6 +30,8 @@ const READABLE: f64 = 2.2;
 pub(in crate::studio) struct Layout {
     pub area: Rect,
     pub face: Rect,
+    /// The frame of the video; no width where it is not shown.
+    pub video: Rect,
     pub panel: Rect,
     pub ruler: Rect,
     /// The outline of the sound; no height where it is not shown.
@@ -85,7 +91,17 @@ impl Layout {
         let most = upper.width.saturating_sub(40);
         let face_width = FacePicture::size_in(&editor.figure, (most, top).into()).width;
         let face = Rect { x: upper.x + 1, width: face_width, ..upper };
-        let left = face.right() + 2;
+        // The video stands beside the face as high as it, where the panel keeps room for its words.
+        let room_beside = upper.right().saturating_sub(face.right() + 2 + PANEL);
+        let video = match state.footage.picture(editor.clip) {
+            Some(photo) if room_beside >= 12 => {
+                let view = crate::geometry::Rect::new(0.0, 0.0, photo.width() as f64, photo.height() as f64);
+                let size = photo_picture::size_in(view, (room_beside, top).into());
+                Rect { x: face.right() + 1, width: size.width, ..upper }
+            }
+            _ => Rect { x: face.right(), width: 0, ..upper },
+        };
+        let left = video.right() + 2;
         let panel = Rect { x: left, width: area.right().saturating_sub(left + 1), ..upper };
         let mut y = upper.bottom();
         let mut next = |height| {
@@ -100,7 +116,7 @@ impl Layout {
             1 => vec![(Some(editor.lane).filter(own), next(1))],
             _ => Lane::ALL.iter().filter(|l| own(l)).map(|l| (Some(*l), next(1))).collect(),
         };
-        Some(Self { area, face, panel, ruler, wave, spectrum, tone, said, pinyin, phones, mouth, curves, keys })
+        Some(Self { area, face, video, panel, ruler, wave, spectrum, tone, said, pinyin, phones, mouth, curves, keys })
     }
 
     /// How many columns of time there are.

@@ -135,7 +135,7 @@ fn places(buffer: &mut Buffer, layout: &Layout, editor: &Editor) {
 fn beside(buffer: &mut Buffer, layout: &Layout, editor: &Editor, doubts: &[crate::project::Doubt], colours: Colours) {
     const WORDS: &str = "not in the script";
     let (window, columns, row) = (editor.window, layout.columns(), layout.said);
-    for doubt in doubts.iter().filter(|d| d.syllable.is_none()) {
+    for doubt in doubts.iter().filter(|d| d.what == crate::project::Concern::NotInScript) {
         let (start, end) = (window.column(doubt.start, columns), window.column(doubt.end, columns));
         let (first, last) = (start.max(0), end.min(i32::from(columns)));
         for column in first..last {

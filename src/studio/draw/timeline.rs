@@ -9,6 +9,7 @@ use super::{
 };
 use crate::studio::Lane;
 use crate::studio::editor::Editor;
+use crate::studio::photo_picture;
 use crate::studio::picture::FacePicture;
 use crate::studio::state::State;
 use crate::timeline::Track;
@@ -16,9 +17,19 @@ use crate::timeline::Track;
 pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face: &FacePicture) {
     let (Some(editor), Some(clip), Some(lesson)) = (&state.editor, state.clip(), state.lesson()) else { return };
     let (standing, style) = lists::standing(lesson, state.colours);
-    let standing = if state.aligning.is_some() { format!("aligning…   {standing}") } else { standing.to_owned() };
+    let following = state.following.as_ref().map(|f| format!("{}   {standing}", f.told()));
+    let standing = if let Some(following) = following {
+        following
+    } else if state.aligning.is_some() {
+        format!("aligning…   {standing}")
+    } else {
+        standing.to_owned()
+    };
     head(buffer, layout.area, &[&lesson.manifest.title, &clip.entry.name], &standing, style);
     face.put(buffer, layout.face);
+    if let Some(photo) = state.footage.picture(editor.clip).filter(|_| layout.video.width > 0) {
+        photo_picture::frame(buffer, layout.video, photo, state.colours);
+    }
     match &editor.tapping {
         Some(tapping) => tap::panel(buffer, layout.panel, state, tapping, clip),
         None => bars::panel(buffer, layout.panel, editor, clip, state.colours),
@@ -49,7 +60,7 @@ pub(super) fn timeline(buffer: &mut Buffer, layout: &Layout, state: &State, face
     name(buffer, layout.mouth, "mouth", on(Lane::Keys(Track::Mouth)));
     keyrows::mouth(buffer, layout.mouth, editor, state.colours);
     name(buffer, layout.curves, "ratio", false);
-    curves::curves(buffer, layout.curves, editor, state.colours);
+    curves::curves(buffer, layout.curves, editor, clip, state.colours);
     for (lane, row) in &layout.keys {
         name(buffer, *row, lane.map_or("keys", Lane::name), lane.is_some_and(on));
         keyrows::keys(buffer, *row, *lane, editor, clip, state.colours);

@@ -43,6 +43,15 @@ impl Curve {
         mix(self.table[i], self.table[i + 1], u - i as f32)
     }
 
+    /// The same with every height changed by what is said of it and its x.
+    pub fn altered(&self, by: impl Fn(f32, f32) -> f32) -> Curve {
+        let mut table = self.table;
+        for (step, y) in table.iter_mut().enumerate() {
+            *y = by(mix(self.from, self.to, step as f32 / STEPS as f32), *y);
+        }
+        Curve { table, ..*self }
+    }
+
     /// Rise over run at `x`.
     pub fn slope(&self, x: f32) -> f32 {
         let h = (self.to - self.from) / STEPS as f32;

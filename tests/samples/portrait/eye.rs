@@ -11,8 +11,8 @@ pub fn at(head: &Head, place: V) -> (Surface, V) {
     let q = head.rest(place);
     let side = q.0.signum();
     let f = q.folded();
-    // The gaze is straight ahead: the iris lies where the ball is nearest.
-    let (dx, dy) = (f.0 - EYE.0 + 0.4, f.1 - 0.6);
+    // Of a gaze straight ahead the iris lies where the ball is nearest.
+    let (dx, dy) = (f.0 - EYE.0 + 0.4 - side * head.act.gaze_x, f.1 - 0.6 - head.act.gaze_y);
     let r = dx.hypot(dy);
     let turn = dy.atan2(dx);
 

@@ -34,6 +34,14 @@ struct Sample {
     albedo: V,
 }
 
+/// How much a place sees of the large lamp, of its surroundings, and of them through the hair.
+#[derive(Clone, Copy)]
+struct Shadows {
+    seen: f32,
+    open: f32,
+    ambient: f32,
+}
+
 const NONE: Sample =
     Sample { stuff: Stuff::Nothing, place: V::ZERO, near: f32::MIN, light: V::ZERO, shine: V::ZERO, albedo: V::ZERO };
 
@@ -64,7 +72,12 @@ impl<'a> Figure<'a> {
         if p.1 > 235.0 {
             return body::skin(p, self.person().neck);
         }
-        join(self.head.distance(p), body::skin(p, self.person().neck), 9.0)
+        let head = self.head.distance(p);
+        // Before the face the neck is too far to matter.
+        if p.2 > 85.0 && p.1 < 170.0 && head < 20.0 {
+            return head;
+        }
+        join(head, body::skin(p, self.person().neck), 9.0)
     }
 
     fn nearest(&self, p: V) -> (f32, Stuff) {
@@ -81,7 +94,7 @@ impl<'a> Figure<'a> {
         if bare < 30.0 && p.2 > 60.0 && p.1 < 40.0 {
             offer(self.head.eyes(p), Stuff::Eye);
         }
-        if self.person().open > 0.0 && bare < 40.0 && p.2 > 40.0 {
+        if self.head.gape() > 0.0 && bare < 40.0 && p.2 > 40.0 {
             offer(self.head.teeth(p), Stuff::Teeth);
             offer(self.head.tongue(p), Stuff::Tongue);
         }
@@ -102,20 +115,34 @@ impl<'a> Figure<'a> {
     }
 
     fn march(&self, from: V, to: V) -> Option<(V, Stuff)> {
-        let (mut t, end) = bounds(from, to)?;
+        self.march_from(from, to, 0.0)
+    }
+
+    fn march_from(&self, from: V, to: V, start: f32) -> Option<(V, Stuff)> {
+        let (t, end) = bounds(from, to)?;
+        let bold = if start > 0.0 { 0.9 } else { 0.72 };
+        let first = t;
+        let mut t = t.max(start);
+        if start > 0.0 && self.distance(from + to * t) < 1.0 {
+            t = first;
+        }
         let mut before = t;
         for _ in 0..200 {
             let p = from + to * t;
             let (d, stuff) = self.nearest(p);
             if d < -0.04 {
-                return Some(self.between(from, to, before, t));
+                return Some(if start > 0.0 {
+                    self.nearer(from, to, before, t)
+                } else {
+                    self.between(from, to, before, t)
+                });
             }
             if d < 0.04 {
                 return Some((p, stuff));
             }
             before = t;
             // Under the chin the nearest surface is not the one straight inwards: no long steps there.
-            t += (d * 0.72).clamp(0.25, 12.0);
+            t += (d * bold).clamp(0.25, 12.0);
             if t > end {
                 return None;
             }
@@ -131,6 +158,22 @@ impl<'a> Figure<'a> {
         for _ in 0..14 {
             let t = (before + behind) * 0.5;
             if self.distance(from + to * t) > 0.0 { before = t } else { behind = t }
+        }
+        let p = from + to * behind;
+        (p, self.nearest(p).1)
+    }
+
+    /// The same by the secant, which takes fewer looks.
+    fn nearer(&self, from: V, to: V, mut before: f32, mut behind: f32) -> (V, Stuff) {
+        let (mut out, mut within) = (self.distance(from + to * before).max(1e-3), self.distance(from + to * behind));
+        for _ in 0..6 {
+            let t = mix(before, behind, (out / (out - within)).clamp(0.05, 0.95));
+            let d = self.distance(from + to * t);
+            if d.abs() < 0.04 {
+                behind = t;
+                break;
+            }
+            if d > 0.0 { (before, out) = (t, d) } else { (behind, within) = (t, d) }
         }
         let p = from + to * behind;
         (p, self.nearest(p).1)
@@ -162,13 +205,32 @@ impl<'a> Figure<'a> {
         (1.0 - shut).clamp(0.06, 1.0)
     }
 
-    fn shade(&self, place: V, stuff: Stuff, eye: V) -> Sample {
+    /// What hides the lamps from a place, in the direction away from its surface.
+    fn shadows(&self, place: V, smooth_n: V, eye: V) -> Shadows {
         let see = (eye - place).unit();
-        let smooth_n = self.outward(place, if stuff == Stuff::Skin { 0.35 } else { 0.5 });
+        let key = self.stand.turned(self.rig.key);
+        let seen = self.lamp(place + smooth_n * 0.6, key, self.rig.sharp) * self.mass.through(place, key, 0.20, 14);
+        let open = self.sky(place, smooth_n);
+        let shut_in = self.mass.through(place, (smooth_n + see).unit(), 0.10, 8);
+        Shadows { seen, open, ambient: open * (0.35 + 0.65 * shut_in) }
+    }
+
+    fn facing(&self, place: V, stuff: Stuff) -> V {
+        self.outward(place, if stuff == Stuff::Skin { 0.35 } else { 0.5 })
+    }
+
+    fn shade(&self, place: V, stuff: Stuff, eye: V) -> Sample {
+        let smooth_n = self.facing(place, stuff);
+        self.shade_in(place, stuff, eye, smooth_n, self.shadows(place, smooth_n, eye))
+    }
+
+    fn shade_in(&self, place: V, stuff: Stuff, eye: V, smooth_n: V, shadows: Shadows) -> Sample {
+        let see = (eye - place).unit();
+        let Shadows { seen, open, ambient } = shadows;
         let mut n = smooth_n;
         let (surface, wrap) = match stuff {
             Stuff::Skin => {
-                n = (n + skin::relief(place, 0.075)).unit();
+                n = (n + skin::relief(self.head.pattern(place), 0.075)).unit();
                 (skin::at(self.head, &self.moles, place), 0.22)
             }
             Stuff::Eye => {
@@ -187,10 +249,6 @@ impl<'a> Figure<'a> {
         let key = self.stand.turned(rig.key);
         let fill = self.stand.turned(rig.fill);
         let up = self.stand.turned(V(0.0, -1.0, 0.0));
-        let seen = self.lamp(place + smooth_n * 0.6, key, rig.sharp) * self.mass.through(place, key, 0.20, 14);
-        let open = self.sky(place, smooth_n);
-        let shut_in = self.mass.through(place, (smooth_n + see).unit(), 0.10, 8);
-        let ambient = open * (0.35 + 0.65 * shut_in);
 
         let facing = |l: V| ((n.dot(l) + wrap) / (1.0 + wrap)).max(0.0);
         let sky = (0.55 + 0.45 * n.dot(up)) * (0.6 + 0.4 * n.dot(see).max(0.0));
@@ -231,6 +289,11 @@ impl<'a> Figure<'a> {
 
     /// Exposes the figure's surfaces; its hairs come after (`strand::expose`).
     pub fn expose(&self, canvas: &mut Canvas) {
+        self.seen(canvas).put(canvas);
+    }
+
+    /// What each ray meets.
+    pub fn seen(&self, canvas: &Canvas) -> Exposure {
         let wide = canvas.wide() / COARSE;
         let per_unit = canvas.per_unit() / COARSE as f32;
         let mut samples = vec![NONE; wide * wide];
@@ -243,15 +306,88 @@ impl<'a> Figure<'a> {
             }
         });
         let light = spread(&samples, wide, per_unit * self.stand.scale);
+        Exposure { wide, samples, light }
+    }
+
+    /// The same of a figure that differs in its face alone from one that has been seen: only the face's rays are sent
+    /// again, and of four that lie together one looks for shadows, which are soft.
+    pub fn seen_again(&self, canvas: &Canvas, before: &Exposure) -> Exposure {
+        let wide = before.wide;
+        let per_unit = canvas.per_unit() / COARSE as f32;
+        let ray =
+            |row: usize, column: usize| self.stand.ray((column as f32 + 0.5) / per_unit, (row as f32 + 0.5) / per_unit);
+        let in_face = |from: V, to: V| {
+            let at = from + to * ((from.2 - 100.0) / -to.2);
+            let (x, y) = (at.0 / 112.0, (at.1 - 60.0) / if at.1 < 60.0 { 164.0 } else { 180.0 });
+            (x * x * x * x + y * y * y * y < 1.0 && (at.1 < 140.0 || at.0.abs() < 96.0)).then_some(at)
+        };
+        let mut met: Vec<Option<(V, Stuff, V)>> = vec![None; wide * wide];
+        met.par_chunks_mut(wide).enumerate().for_each(|(row, line)| {
+            for (column, met) in line.iter_mut().enumerate() {
+                let (from, to) = ray(row, column);
+                let Some(at) = in_face(from, to) else { continue };
+                let was = &before.samples[row * wide + column];
+                // Beside the head there is still nothing.
+                if was.stuff == Stuff::Nothing && at.1 < 85.0 || was.stuff == Stuff::Shirt {
+                    continue;
+                }
+                // Down to the chin nothing comes nearer by more than folds and lips that are pushed out.
+                let deep = at.1 < 105.0 || at.1 < 150.0 && was.place.2 > 80.0;
+                let near = deep && was.stuff != Stuff::Nothing;
+                let start = if near { (was.place - from).len() - if at.1 < 60.0 { 5.0 } else { 12.0 } } else { 0.0 };
+                *met = self.march_from(from, to, start).map(|(p, stuff)| (p, stuff, self.facing(p, stuff)));
+            }
+        });
+        let shadows: Vec<Option<Shadows>> = (0..wide * wide)
+            .into_par_iter()
+            .map(|i| {
+                let (row, column) = (i / wide, i % wide);
+                let (p, _, n) = met[i].filter(|_| row % 2 == 0 && column % 2 == 0)?;
+                Some(self.shadows(p, n, ray(row, column).0))
+            })
+            .collect();
+        let mut samples = before.samples.clone();
+        samples.par_chunks_mut(wide).enumerate().for_each(|(row, line)| {
+            for (column, sample) in line.iter_mut().enumerate() {
+                let (from, to) = ray(row, column);
+                if in_face(from, to).is_none() || sample.stuff == Stuff::Shirt {
+                    continue;
+                }
+                let Some((place, stuff, n)) = met[row * wide + column] else {
+                    *sample = NONE;
+                    continue;
+                };
+                let beside = (row & !1) * wide + (column & !1);
+                let same = met[beside].is_some_and(|(p, s, m)| s == stuff && (p - place).len() < 4.0 && m.dot(n) > 0.8);
+                let shadows = shadows[beside].filter(|_| same).unwrap_or_else(|| self.shadows(place, n, from));
+                *sample = self.shade_in(place, stuff, from, n, shadows);
+            }
+        });
+        let light = spread(&samples, wide, per_unit * self.stand.scale);
+        Exposure { wide, samples, light }
+    }
+}
+
+/// What the rays of a picture have met, and the light that leaves the skin there.
+#[derive(Clone)]
+pub struct Exposure {
+    wide: usize,
+    samples: Vec<Sample>,
+    light: Vec<V>,
+}
+
+impl Exposure {
+    /// Puts on the canvas what is nearer than what it holds.
+    pub fn put(&self, canvas: &mut Canvas) {
         let full = canvas.wide();
         for row in 0..full {
             for column in 0..full {
-                let at = row / COARSE * wide + column / COARSE;
-                let s = &samples[at];
+                let at = row / COARSE * self.wide + column / COARSE;
+                let s = &self.samples[at];
                 let to = row * full + column;
                 if s.stuff != Stuff::Nothing && s.near > canvas.near[to] {
                     canvas.near[to] = s.near;
-                    canvas.colour[to] = s.albedo.by(light[at]) + s.shine;
+                    canvas.colour[to] = s.albedo.by(self.light[at]) + s.shine;
                 }
             }
         }

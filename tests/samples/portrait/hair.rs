@@ -81,6 +81,25 @@ fn face_edge() -> Curve {
 
 /// All hairs of a head; the same for the same person.
 pub fn grow(head: &Head) -> Vec<Strand> {
+    let mut all = scalp(head);
+    brows(head, &mut all);
+    lashes(head, &mut all);
+    all
+}
+
+/// The hairs of brows and lids of a head that does something; `at_rest` is the same head, and `brows` its brows.
+pub fn moved(head: &Head, at_rest: &Head, brows: &[Strand]) -> Vec<Strand> {
+    let moved = |s: &Strand| {
+        let points = s.points.iter().map(|p| head.sway(at_rest.rest(*p))).collect();
+        Strand { points, width: s.width, colour: s.colour, mass: s.mass }
+    };
+    let mut all: Vec<Strand> = brows.iter().map(moved).collect();
+    lashes(head, &mut all);
+    all
+}
+
+/// The hairs of the head but its face's.
+pub fn scalp(head: &Head) -> Vec<Strand> {
     let cut = head.person.cut;
     let face = face_edge();
     let count = if cut == Cut::Bob { BOB } else { SHORT };
@@ -96,8 +115,6 @@ pub fn grow(head: &Head) -> Vec<Strand> {
         })
         .collect();
     down(head, &mut all);
-    brows(head, &mut all);
-    lashes(head, &mut all);
     all
 }
 
@@ -276,11 +293,12 @@ fn short(head: &Head, root: &Root, dice: &mut Dice) -> Strand {
         }
         points.push(p);
     }
-    Strand { points, width: mix(0.2, 0.34, fine), colour: tint(head, at, dice), mass: true }
+    let width = head.person.hair_width * mix(0.2, 0.34, fine);
+    Strand { points, width, colour: tint(head, at, dice), mass: true }
 }
 
 /// The skin under a place on the face, by marching back from the front.
-fn on_skin(head: &Head, x: f32, y: f32) -> V {
+pub fn on_skin(head: &Head, x: f32, y: f32) -> V {
     let mut p = V(x, y, 190.0);
     for _ in 0..90 {
         let d = head.distance(p);
@@ -292,7 +310,7 @@ fn on_skin(head: &Head, x: f32, y: f32) -> V {
     p
 }
 
-fn brows(head: &Head, all: &mut Vec<Strand>) {
+pub fn brows(head: &Head, all: &mut Vec<Strand>) {
     let l = &head.lines;
     let mut dice = Dice::new(head.person.seed ^ 0xb40);
     for side in [-1.0, 1.0] {

@@ -1,11 +1,15 @@
 //! The head as a distance: the skull with nose, lips, lids, folds and ears on it, and the balls of the eyes in it.
 
+use std::sync::Arc;
+
+use crate::act::Act;
 use crate::curve::Curve;
+use crate::flesh::Flesh;
 use crate::hair::hairline;
 use crate::noise::grain;
 use crate::person::Person;
 use crate::skull::{CENTRE, Skull};
-use crate::vector::{V, ball, carve, join, limb, smooth, spot};
+use crate::vector::{V, ball, carve, join, limb, mix, smooth, spot};
 
 /// The ball that carries the lids. It is larger than an eye's (18 units): lids cover it from corner to corner.
 pub const EYE: V = V(47.5, 1.0, 95.0);
@@ -16,6 +20,7 @@ pub const IRIS: f32 = 8.4;
 pub const GAPE: f32 = 31.0;
 
 /// The lines of the face, right half: x from the midline or the inner corner outwards.
+#[derive(Clone)]
 pub struct Lines {
     pub lid_upper: Curve,
     pub lid_lower: Curve,
@@ -30,8 +35,12 @@ pub struct Lines {
 
 pub struct Head {
     pub person: Person,
-    pub skull: Skull,
+    pub skull: Arc<Skull>,
     pub lines: Lines,
+    /// What it does.
+    pub act: Act,
+    /// Its moved flesh; none of a face at rest.
+    flesh: Option<Flesh>,
 }
 
 impl Lines {
@@ -100,6 +109,21 @@ impl Lines {
         }
     }
 
+    /// With the lids as the muscles have them.
+    fn with_lids(mut self, act: &Act) -> Lines {
+        let rest = self.clone();
+        let wide = |x: f32| (1.0 - ((x - 46.0) / 21.0).powi(2)).max(0.0).sqrt();
+        let upper = |x: f32| rest.lid_upper.at(x) + act.lid_upper * wide(x);
+        let lower = |x: f32| rest.lid_lower.at(x) - act.lid_lower * wide(x);
+        // Closed lids meet low.
+        let meet = |x: f32| mix(lower(x), upper(x), 0.14);
+        self.lid_upper = rest.lid_upper.altered(|x, _| mix(upper(x), meet(x), act.closed));
+        self.lid_lower = rest.lid_lower.altered(|x, _| mix(lower(x), meet(x), act.closed));
+        let follows = 0.45 * act.lid_upper + 3.0 * act.closed;
+        self.crease = rest.crease.altered(|_, y| y + follows);
+        self
+    }
+
     /// Signed distance in the picture's plane from the opening between the lids; negative within.
     pub fn aperture(&self, x: f32, y: f32) -> f32 {
         let (a, b) = (-self.lid_upper.below(x, y), self.lid_lower.below(x, y));
@@ -117,7 +141,24 @@ impl Head {
     pub fn new(person: Person) -> Head {
         let skull = Skull::through(&person.points(), 2e-5);
         let lines = Lines::of(&person);
-        Head { person, skull, lines }
+        Head { person, skull: Arc::new(skull), lines, act: Act::default(), flesh: None }
+    }
+
+    /// The same head with its face moved.
+    pub fn doing(&self, act: Act) -> Head {
+        let flesh = Some(Flesh::new(act, &self.lines.lip_line));
+        let lines = Lines::of(&self.person).with_lids(&act);
+        Head { person: self.person.clone(), skull: Arc::clone(&self.skull), lines, act, flesh }
+    }
+
+    /// How far the mouth is open, in units.
+    pub fn gape(&self) -> f32 {
+        GAPE * self.person.open + self.flesh.as_ref().map_or(0.0, Flesh::gape)
+    }
+
+    /// How far the lower teeth and the tongue have come down.
+    fn jaw(&self) -> f32 {
+        GAPE * self.person.open + self.act.jaw + 0.35 * self.act.lower
     }
 
     /// How far within the hairline a place on the head lies; negative on the face and the neck.
@@ -134,10 +175,7 @@ impl Head {
     /// Where the flesh at `p` would be if the face were even and the mouth closed.
     pub fn rest(&self, p: V) -> V {
         // Nobody is symmetric: the midline sways and one side lies a little lower.
-        let front = smooth(20.0, 100.0, p.2);
-        let mut q = p;
-        q.0 += front * (0.9 * (p.1 * 0.021 + 1.0).sin() - 0.5);
-        q.1 += front * (0.012 * p.0 + 0.8 * (p.0 * 0.03 + p.1 * 0.01).sin());
+        let mut q = Head::even(p);
         let open = self.person.open;
         let line = 102.4;
         if open > 0.0 && q.1 > line {
@@ -146,27 +184,59 @@ impl Head {
             let below = q.1 - line;
             q.1 -= below.min(gap) + (drop - gap.min(drop)) * smooth(gap, gap + 62.0, below);
         }
+        match &self.flesh {
+            Some(flesh) => flesh.back(q),
+            None => q,
+        }
+    }
+
+    /// Where the skin's pattern at a place on this face is taken from: it moves with the flesh.
+    pub fn pattern(&self, p: V) -> V {
+        if self.flesh.is_some() { self.rest(p) } else { p }
+    }
+
+    /// The place on the even face, moved as this one, of a place `p` on this face.
+    fn even(p: V) -> V {
+        let front = smooth(20.0, 100.0, p.2);
+        let mut q = p;
+        q.0 += front * (0.9 * (p.1 * 0.021 + 1.0).sin() - 0.5);
+        q.1 += front * (0.012 * p.0 + 0.8 * (p.0 * 0.03 + p.1 * 0.01).sin());
         q
     }
 
     /// The place on this face of a place `q` on the even face: the inverse of [`Head::rest`] for a closed mouth.
     pub fn sway(&self, q: V) -> V {
+        let q = self.flesh.as_ref().map_or(q, |f| f.forth(q));
         let mut p = q;
         for _ in 0..3 {
-            p = p + (q - self.rest(p));
+            p = p + (q - Head::even(p));
         }
         p
     }
 
     /// Signed distance from the skin of the head; a little less than true where the form is steep.
     pub fn distance(&self, p: V) -> f32 {
-        let far = self.skull.distance(p);
-        if far > 45.0 {
-            return far - 25.0;
+        let (q, mut d);
+        if self.flesh.is_some() {
+            q = self.rest(p);
+            d = self.skull.distance(q);
+            if d > 45.0 {
+                return d - 25.0;
+            }
+            // Beside the nose nothing stands out by more than lips.
+            let x = q.0.abs();
+            if d > 16.0 && x < 76.0 && (x > 36.0 || q.1 < -30.0 || q.1 > 84.0) {
+                return d - 11.0;
+            }
+        } else {
+            let far = self.skull.distance(p);
+            if far > 45.0 {
+                return far - 25.0;
+            }
+            q = self.rest(p);
+            d = self.skull.distance(q);
         }
-        let q = self.rest(p);
         let f = q.folded();
-        let mut d = self.skull.distance(q);
         if q.2 > 60.0 && q.1 > -50.0 && q.1 < 175.0 {
             if f.0 < 42.0 && q.1 < 90.0 {
                 d = self.nose(f, d);
@@ -178,6 +248,12 @@ impl Head {
                 d = self.mouth(f, d, p);
             }
             d -= self.folds(f);
+            if self.flesh.is_some() {
+                d -= self.worked(f);
+                if q.1 > 74.0 {
+                    d = self.opened(Head::even(p), d);
+                }
+            }
         }
         if f.0 > 78.0 {
             d = self.ear(f, d);
@@ -244,7 +320,7 @@ impl Head {
             let seam = spot(l.lip_line.below(x, p.1) / 1.1) * smooth(40.5, 36.0, x);
             d += 2.3 * seam;
             // Fine lines across the lips.
-            if out > 0.5 {
+            if out > 0.5 && (self.flesh.is_none() || d < 3.0) {
                 d += 0.16 * grain(V(true_place.0 * 0.75 + 0.02 * true_place.0 * (p.1 - 102.0), p.1 * 0.10, 7.0));
             }
         }
@@ -260,9 +336,43 @@ impl Head {
         d
     }
 
+    /// The mouth opened by the flesh's moves, cut out of `d`; `p` is a place of the moved even face.
+    fn opened(&self, p: V, d: f32) -> f32 {
+        let Some(flesh) = &self.flesh else { return d };
+        let x = p.0.abs();
+        let (up, low) = flesh.edges(x);
+        let gap = low - up;
+        if gap < 0.25 || x > flesh.corner() {
+            return d;
+        }
+        let cut = ((up - p.1).max(p.1 - low) * 0.8).max(x - flesh.corner());
+        carve(d, cut.max(84.0 - p.2), (0.5 * gap).clamp(0.3, 2.4))
+    }
+
+    /// What the muscles do to the skin itself: folds, cheeks, lips pushed out. How far they lift it.
+    fn worked(&self, p: V) -> f32 {
+        let a = &self.act;
+        let (x, y) = (p.0, p.1);
+        let mut out = 0.0;
+        if y < -34.0 {
+            let lines = spot((y + 50.0) / 2.2) + spot((y + 63.0 + 0.02 * x) / 2.2) + 0.7 * spot((y + 76.0) / 2.2);
+            out -= 0.9 * a.forehead * lines * smooth(80.0, 40.0, x);
+        } else if y < 12.0 {
+            let line = spot((x - 7.0 - 0.08 * (y + 24.0)) / 1.6) * smooth(-44.0, -34.0, y) * smooth(-8.0, -18.0, y);
+            let bulge = spot((x - 13.0) / 4.5) * spot((y + 24.0) / 10.0);
+            out += a.frown * (1.0 * bulge - 1.5 * line);
+            let across = spot((y + 8.0) / 1.6) + spot((y + 2.0) / 1.6) + 0.7 * spot((y - 4.5) / 1.6);
+            out -= 0.9 * a.wrinkle * across * smooth(16.0, 8.0, x);
+        } else {
+            out += 0.55 * a.cheek * spot(((x - 58.0) / 17.0).hypot((y - 44.0) / 13.0));
+            out += 3.0 * a.pout * spot((x / 30.0).hypot((y - 103.0) / 20.0));
+        }
+        out
+    }
+
     /// How far folds lift (or, negative, sink) the skin.
     fn folds(&self, p: V) -> f32 {
-        let a = self.person.folds;
+        let a = self.person.folds + 1.5 * self.act.crease;
         // From the wing of the nose to beside the mouth.
         let line = |p: V, from: (f32, f32), to: (f32, f32)| {
             let (dx, dy) = (to.0 - from.0, to.1 - from.1);
@@ -309,22 +419,31 @@ impl Head {
         (self.rest(p).folded() - EYE).len() - EYE_RADIUS
     }
 
-    /// Signed distance from teeth and tongue.
+    /// Signed distance from the teeth.
     pub fn teeth(&self, p: V) -> f32 {
-        if self.person.open <= 0.0 {
+        if self.gape() <= 0.0 {
             return f32::MAX;
         }
         let f = p.folded();
         let arch = (f.0 / 34.0).hypot((p.2 - 92.0) / 36.0);
         let gap = 0.35 * spot((f.0 - (f.0 / 8.2).round() * 8.2) / 0.5);
-        let teeth = ((arch - 1.0) * 30.0 + gap).max(p.1 - 108.5 + 0.03 * f.0).max(92.0 - p.1);
+        let row = (arch - 1.0) * 30.0 + gap;
+        let mut teeth = row.max(p.1 - 108.5 + 0.03 * f.0).max(92.0 - p.1);
+        if self.flesh.is_some() {
+            // The lower row stands a little behind the upper one.
+            let top = 107.0 + self.jaw();
+            let arch = (f.0 / 31.0).hypot((p.2 - 92.0) / 33.0);
+            let gap = 0.35 * spot((f.0 - (f.0 / 6.0).round() * 6.0) / 0.5);
+            teeth = teeth.min(((arch - 1.0) * 28.0 + gap).max(top - p.1).max(p.1 - top - 14.0));
+        }
         teeth * 0.8
     }
 
+    /// Signed distance from the tongue.
     pub fn tongue(&self, p: V) -> f32 {
-        if self.person.open <= 0.0 {
+        if self.gape() <= 0.0 {
             return f32::MAX;
         }
-        ball(p, V(0.0, 102.0 + GAPE * self.person.open + 6.0, 100.0), V(26.0, 15.0, 26.0)) * 0.8
+        ball(p, V(0.0, 102.0 + self.jaw() + 6.0, 100.0), V(26.0, 15.0, 26.0)) * 0.8
     }
 }

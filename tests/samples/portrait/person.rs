@@ -27,6 +27,9 @@ pub struct Person {
     pub iris: V,
     pub hair: V,
     pub cut: Cut,
+    /// How thick the hairs of the head are, and how dark they make the scalp.
+    pub hair_width: f32,
+    pub scalp: f32,
     /// Hairs of one brow, and how thick they are.
     pub brow_hairs: usize,
     pub brow_width: f32,
@@ -68,6 +71,8 @@ impl Person {
             iris: V(0.13, 0.062, 0.028),
             hair: V(0.030, 0.0165, 0.0098),
             cut: Cut::Bob,
+            hair_width: 1.0,
+            scalp: 0.66,
             brow_hairs: 850,
             brow_width: 0.28,
             lashes: (8.5, 4.0),
@@ -97,6 +102,8 @@ impl Person {
             iris: V(0.05, 0.024, 0.012),
             hair: V(0.014, 0.011, 0.009),
             cut: Cut::Short,
+            hair_width: 1.0,
+            scalp: 0.66,
             brow_hairs: 900,
             brow_width: 0.34,
             lashes: (5.5, 3.0),
@@ -112,6 +119,37 @@ impl Person {
             shirt: V(0.50, 0.50, 0.48),
             stubble: 0.5,
             folds: 1.0,
+            open: 0.0,
+        }
+    }
+
+    /// A man of about 30 with short black hair and light skin, who teaches.
+    pub fn teacher() -> Person {
+        Person {
+            seed: 30,
+            skin: V(0.50, 0.315, 0.215),
+            blush: 0.85,
+            lips: V(0.36, 0.165, 0.135),
+            iris: V(0.055, 0.026, 0.013),
+            hair: V(0.013, 0.0105, 0.009),
+            cut: Cut::Short,
+            hair_width: 1.7,
+            scalp: 0.93,
+            brow_hairs: 1000,
+            brow_width: 0.34,
+            lashes: (5.5, 3.0),
+            jaw: 0.93,
+            nose: 0.98,
+            lip_height: 1.10,
+            chin: 0.0,
+            ridge: 0.4,
+            brow_lift: 1.0,
+            arch: 0.55,
+            droop: 0.6,
+            neck: 1.12,
+            shirt: V(0.10, 0.16, 0.13),
+            stubble: 0.22,
+            folds: 0.55,
             open: 0.0,
         }
     }

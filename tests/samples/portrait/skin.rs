@@ -32,12 +32,13 @@ pub fn moles(seed: u64) -> Vec<(f32, f32, f32, f32)> {
 pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     let who = &head.person;
     let q = head.rest(place);
+    let pattern = head.pattern(place);
     let f = q.folded();
     let (x, y) = (f.0, f.1);
     let l = &head.lines;
     let front = smooth(30.0, 70.0, q.2);
-    let patches = cloud(place * 0.045);
-    let fine = cloud(place * 0.3);
+    let patches = cloud(pattern * 0.045);
+    let fine = cloud(pattern * 0.3);
 
     // Blood near the surface: redder; its lack over bone: yellower.
     let mut red = 0.0;
@@ -54,7 +55,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
 
     // The scalp is dark with roots.
     let scalp = smooth(-1.0, 12.0, head.within_hairline(place)) * smooth(110.0, 70.0, y);
-    c = c.lerp(who.hair * 1.6, 0.66 * scalp);
+    c = c.lerp(who.hair * 1.6, who.scalp * scalp);
 
     // Around the eye: brownish on the lid, bluish in the hollow under it.
     let lid = front * smooth(-14.0, -8.0, l.crease.below(x, y)) * smooth(14.0, 6.0, l.lid_lower.below(x, y));
@@ -84,7 +85,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
         let side = smooth(58.0, 92.0, y - 0.35 * (x - 40.0).abs());
         let lip = smooth(70.0, 78.0, y) * smooth(52.0, 40.0, x);
         let beard = side.max(lip) * smooth(195.0, 165.0, y) * smooth(0.0, 30.0, q.2);
-        let dots = 0.75 + 0.5 * grain(place * 1.1);
+        let dots = 0.75 + 0.5 * grain(pattern * 1.1);
         c = c.by(V::all(1.0).lerp(V(0.62, 0.62, 0.66), who.stubble * beard * dots));
     }
 
@@ -95,7 +96,7 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
     gloss *= 1.0 - 0.6 * lid.max(hollow);
 
     // Blotches, pores, freckles.
-    c = c * (1.0 + 0.06 * patches + 0.09 * fine + 0.06 * grain(place * 0.9));
+    c = c * (1.0 + 0.06 * patches + 0.09 * fine + 0.06 * grain(pattern * 0.9));
     for (mx, my, r, depth) in moles {
         let d = ((q.0 - mx) / r).hypot((q.1 - my) / r);
         if d < 3.0 {
@@ -103,7 +104,11 @@ pub fn at(head: &Head, moles: &[(f32, f32, f32, f32)], place: V) -> Surface {
         }
     }
 
-    let lips = if who.open > 0.0 || (x < 42.0 && y > 80.0 && y < 126.0) { l.on_lips(x, y, 1.7) * front } else { 0.0 };
+    let lips = if who.open > 0.0 || head.gape() > 0.0 || (x < 42.0 && y > 80.0 && y < 126.0) {
+        l.on_lips(x, y, 1.7) * front
+    } else {
+        0.0
+    };
     if lips > 0.0 {
         let lines = 1.0 + 0.09 * grain(V(q.0 * 0.7, q.1 * 0.12, 3.0)) + 0.05 * fine;
         let seam = spot(l.lip_line.below(x, y) / 1.5);

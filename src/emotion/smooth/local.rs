@@ -1,4 +1,4 @@
-//! Smoothing that keeps peaks.
+//! Local regression: the value at a sample of the curve fitted to the samples around it (Cleveland 1979).
 
 /// Smooths values sampled at `times` over about `width` seconds by local quadratic regression with tricube weights
 /// (Cleveland 1979): a parabola is fitted to the samples around each one. Noise goes, and a peak as wide as the
@@ -14,39 +14,54 @@ pub fn smooth_keeping_peaks(times: &[f64], values: &[f64], width: f64) -> Vec<f6
                 start += 1;
             }
             let near = (start..count).take_while(|j| times[*j] - times[i] < width);
-            local_parabola(times, values, i, near, width)
+            let (steps, weights): (Vec<f64>, Vec<f64>) =
+                near.clone().map(|j| (times[j] - times[i]) / width).map(|u| (u, tricube(u))).unzip();
+            match shares::<3>(&steps, &weights).filter(|_| steps.len() >= 5) {
+                Some(shares) => near.zip(shares).map(|(j, share)| share * values[j]).sum(),
+                None => values[i],
+            }
         })
         .collect()
 }
 
-/// The value at sample `i` of the parabola fitted to the samples `near`; the sample itself where they are too few.
-fn local_parabola(times: &[f64], values: &[f64], i: usize, near: impl Iterator<Item = usize>, width: f64) -> f64 {
-    // Normal equations in u = (t − tᵢ) / width; the wanted value is the constant term.
-    let (mut s, mut y, mut count) = ([0.0; 5], [0.0; 3], 0);
-    for j in near {
-        let u = (times[j] - times[i]) / width;
-        let w = (1.0 - u.abs().powi(3)).max(0.0).powi(3);
-        let powers = [1.0, u, u * u, u * u * u, u * u * u * u];
-        for (sum, p) in s.iter_mut().zip(powers) {
-            *sum += w * p;
+/// The weight of a sample at a distance in widths.
+pub(super) fn tricube(u: f64) -> f64 {
+    (1.0 - u.abs().powi(3)).max(0.0).powi(3)
+}
+
+/// The shares of samples in the value at 0 of the weighted least-squares polynomial with `TERMS` terms, 1 to 3. They sum
+/// to 1, so that sums of values are kept. None where the samples do not determine it.
+pub(super) fn shares<const TERMS: usize>(steps: &[f64], weights: &[f64]) -> Option<Vec<f64>> {
+    // Normal equations with the right side (1, 0, 0): the wanted value is the constant term.
+    let mut rows = [[0.0; 4]; TERMS];
+    for (u, w) in steps.iter().zip(weights) {
+        let powers = [1.0, *u, u * u];
+        for (row, p) in rows.iter_mut().zip(powers) {
+            for (cell, q) in row.iter_mut().zip(&powers[..TERMS]) {
+                *cell += w * p * q;
+            }
         }
-        for (sum, p) in y.iter_mut().zip(powers) {
-            *sum += w * p * values[j];
+    }
+    rows[0][3] = 1.0;
+    for k in 0..TERMS {
+        let from = rows[k];
+        // The system is symmetric and not negative: its own diagonal is pivot enough.
+        if from[k] < 1e-9 {
+            return None;
         }
-        count += 1;
+        for row in &mut rows[k + 1..] {
+            let share = row[k] / from[k];
+            for (cell, value) in row.iter_mut().zip(from) {
+                *cell -= share * value;
+            }
+        }
     }
-    if count < 5 {
-        return values[i];
+    let mut terms = [0.0; 3];
+    for k in (0..TERMS).rev() {
+        let known: f64 = (k + 1..TERMS).map(|j| rows[k][j] * terms[j]).sum();
+        terms[k] = (rows[k][3] - known) / rows[k][k];
     }
-    // Cramer's rule for the first unknown of the symmetric 3 × 3 system.
-    let det = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {
-        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-    };
-    let whole = det([s[0], s[1], s[2]], [s[1], s[2], s[3]], [s[2], s[3], s[4]]);
-    if whole.abs() < 1e-12 {
-        return values[i];
-    }
-    det([y[0], s[1], s[2]], [y[1], s[2], s[3]], [y[2], s[3], s[4]]) / whole
+    Some(steps.iter().zip(weights).map(|(u, w)| w * (terms[0] + u * (terms[1] + u * terms[2]))).collect())
 }
 
 #[cfg(test)]

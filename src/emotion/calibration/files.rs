@@ -1,0 +1,178 @@
+//! The files of a face's folder that a calibration is made of.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::inputs::Inputs;
+use super::marks::Marks;
+use crate::aam::{Annotation, Grey};
+use crate::disk::{Fault, Result, read_bytes, read_text};
+use crate::emotion::Binding;
+use crate::face::find::find;
+use crate::face::{Face, FeaturePoint as P, How, Placed};
+use crate::geometry::Point;
+use crate::photo::{MAX_PHOTO_BYTES, sha256};
+use crate::pose::Emotion;
+
+/// Endings of photos, in the order they are looked for.
+const PHOTOS: [&str; 4] = ["png", "jpg", "jpeg", "webp"];
+/// Endings of somebody's own annotations.
+const ANNOTATIONS: [&str; 2] = ["pts", "asf"];
+
+/// The shots of a face's folder and what is known of their points.
+#[derive(Debug, Clone)]
+pub struct ShotFiles {
+    /// The photo of each emotion; none where there is none.
+    pub photos: [Option<PathBuf>; 7],
+    /// The SHA-256 of every file that was read, by its name in the folder.
+    pub sums: BTreeMap<String, String>,
+    greys: [Option<Grey>; 7],
+    points: [Vec<Placed>; 7],
+    named: Vec<(P, Point)>,
+    face: Option<Face>,
+}
+
+impl ShotFiles {
+    /// Reads a folder: `neutral.png` with `face.toml` or `neutral.pts`, `happy.png` … with `happy.toml` or `happy.pts`
+    /// where there are such (`.jpg`, `.jpeg`, `.webp` and `.asf` too).
+    ///
+    /// # Errors
+    /// When the neutral photo or its points are missing, a file cannot be read, or annotations do not go together.
+    pub fn of(folder: &Path) -> Result<Self> {
+        let mut files = Self {
+            photos: Default::default(),
+            sums: BTreeMap::new(),
+            greys: Default::default(),
+            points: Default::default(),
+            named: Vec::new(),
+            face: None,
+        };
+        let beside = |name: &str, endings: &[&str]| {
+            endings.iter().map(|e| folder.join(format!("{name}.{e}"))).find(|p| p.is_file())
+        };
+        for emotion in Emotion::ALL {
+            let Some(path) = beside(emotion.name(), &PHOTOS) else { continue };
+            let bytes = read_bytes(&path, MAX_PHOTO_BYTES)?;
+            files.note(&path, &bytes);
+            files.greys[emotion.index()] = Some(Grey::decode(&bytes).map_err(|f| f.at(&path))?);
+            files.photos[emotion.index()] = Some(path);
+        }
+        let Some(neutral) = &files.greys[0] else {
+            return Err(Fault::new("there is no neutral photo")
+                .at(folder)
+                .help("put neutral.png there: the face at rest, eyes open, mouth closed"));
+        };
+        let size = [neutral.width(), neutral.height()];
+        let seen = neutral.to_photo();
+        let face = folder.join("face.toml");
+        if face.is_file() {
+            let text = read_text(&face)?;
+            let read = Face::parse(&text).map_err(|f| f.at(&face))?;
+            files.named = P::fixed().map(|p| (p, read.points[p.index()].at)).collect();
+            // Of the face only its points matter here: a new colour of hair makes no calibration stale.
+            files.sums.insert("face.toml".into(), sha256(format!("{:?}", files.named).as_bytes()));
+            files.face = Some(read);
+        }
+        match beside("neutral", &ANNOTATIONS) {
+            Some(path) => {
+                files.points[0] = files.annotation(&path, size)?;
+                if files.face.is_none() {
+                    let found = find(&seen, &[]).map_err(|refusal| {
+                        Fault::from(refusal).at(folder).help("run `lianpu face PROJECT`, and set the pupils by hand")
+                    })?;
+                    files.named = P::fixed().map(|p| (p, found.points[p.index()].at)).collect();
+                }
+            }
+            None if files.face.is_none() => {
+                return Err(Fault::new("the points of the neutral photo are not known")
+                    .at(folder)
+                    .help("run `lianpu face PROJECT`, which writes face.toml"));
+            }
+            None => {}
+        }
+        let foreign = !files.points[0].is_empty();
+        for emotion in &Emotion::ALL[1..] {
+            let i = emotion.index();
+            let Some(grey) = &files.greys[i] else { continue };
+            let size = [grey.width(), grey.height()];
+            if foreign {
+                if let Some(path) = beside(emotion.name(), &ANNOTATIONS) {
+                    files.points[i] = files.annotation(&path, size)?;
+                    if files.points[i].len() != files.points[0].len() {
+                        let what = format!(
+                            "it has {} points, the neutral one {}",
+                            files.points[i].len(),
+                            files.points[0].len()
+                        );
+                        return Err(Fault::new(what).at(&path).help("mark the same points in every shot"));
+                    }
+                }
+                continue;
+            }
+            let path = folder.join(format!("{emotion}.toml"));
+            if path.is_file() {
+                let text = read_text(&path)?;
+                let marks = Marks::parse(&text).map_err(|f| f.at(&path))?;
+                // What was found is made of the other files and says nothing new; what a hand has set does.
+                let set: Vec<_> = marks.points.iter().enumerate().filter(|(_, p)| p.how == How::Hand).collect();
+                if !set.is_empty() {
+                    files.sums.insert(format!("{emotion}.toml"), sha256(format!("{set:?}").as_bytes()));
+                }
+                files.points[i] = marks.points;
+            }
+        }
+        Ok(files)
+    }
+
+    fn note(&mut self, path: &Path, bytes: &[u8]) {
+        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        self.sums.insert(name, sha256(bytes));
+    }
+
+    fn annotation(&mut self, path: &Path, size: [usize; 2]) -> Result<Vec<Placed>> {
+        let text = read_text(path)?;
+        self.note(path, text.as_bytes());
+        let list = Annotation::parse(&text).map_err(|f| f.at(path))?;
+        let one = list.first().ok_or_else(|| Fault::new("it has no points").at(path))?;
+        let placed = |at: Point| Placed { at, confidence: 1.0, how: How::Hand };
+        Ok(one.in_pixels(size).into_iter().map(placed).collect())
+    }
+
+    /// Whether the points are our own 41, so that those found are written to `happy.toml` and so on.
+    #[must_use]
+    pub fn are_own(&self) -> bool {
+        self.points[0].is_empty()
+    }
+
+    /// What to calibrate from.
+    ///
+    /// # Errors
+    /// As [`Inputs::foreign`] and [`Inputs::with`].
+    pub fn inputs(&self) -> Result<Inputs<'_>> {
+        let missing = || Fault::new("there is no neutral photo");
+        let neutral = self.greys[0].as_ref().ok_or_else(missing)?;
+        let mut inputs = match &self.face {
+            Some(face) if self.are_own() => Inputs::own(neutral, &face.points),
+            _ => {
+                let points: Vec<Point> = self.points[0].iter().map(|p| p.at).collect();
+                Inputs::foreign(neutral, &points, &self.named)?
+            }
+        };
+        for emotion in &Emotion::ALL[1..] {
+            if let Some(grey) = &self.greys[emotion.index()] {
+                inputs = inputs.with(*emotion, grey, self.points[emotion.index()].clone())?;
+            }
+        }
+        Ok(inputs)
+    }
+
+    /// The file of a shot's points, as calibrating writes it: `happy.toml`'s text. None of a shot that there is not, and of
+    /// somebody's own annotation.
+    #[must_use]
+    pub fn marks(&self, emotion: Emotion, points: &[Placed]) -> Option<Marks> {
+        let path = self.photos[emotion.index()].as_ref()?;
+        let photo = self.sums.get(&path.file_name()?.to_string_lossy().into_owned())?.clone();
+        let ours = self.are_own() && emotion != Emotion::Neutral && points.len() == Binding::own_points().count();
+        ours.then(|| Marks { points: points.to_vec(), photo })
+    }
+}

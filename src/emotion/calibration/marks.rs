@@ -1,0 +1,114 @@
+//! `happy.toml` and its like: the points of a calibration shot, as a person can read and correct them.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use serde::Deserialize;
+
+use crate::disk::{Fault, Result, from_toml};
+use crate::emotion::Binding;
+use crate::face::{FeaturePoint, How, MAX_COORDINATE, Placed};
+use crate::geometry::Point;
+
+/// The only `format` there is.
+const FORMAT: u32 = 1;
+
+/// The points of a shot: our own 41, in the order of [`Binding::own_points`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Marks {
+    /// The points.
+    pub points: Vec<Placed>,
+    /// The SHA-256 of the photo they are of.
+    pub photo: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    format: u32,
+    photo: String,
+    points: BTreeMap<String, Row>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    x: f64,
+    y: f64,
+    #[serde(default = "sure")]
+    confidence: f64,
+    how: How,
+}
+
+fn sure() -> f64 {
+    1.0
+}
+
+impl Marks {
+    /// The text of the file.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut out = format!("format = {FORMAT}\nphoto = \"{}\"\n\n[points]\n", self.photo);
+        for (name, p) in Binding::own_points().zip(&self.points) {
+            let how = match p.how {
+                How::Found => "found",
+                How::Rule => "rule",
+                How::Hand => "hand",
+            };
+            let _ = writeln!(
+                out,
+                "\"{name}\" = {{ x = {:.2}, y = {:.2}, confidence = {:.2}, how = \"{how}\" }}",
+                p.at.x, p.at.y, p.confidence
+            );
+        }
+        out
+    }
+
+    /// Reads the text of the file.
+    ///
+    /// # Errors
+    /// When it is damaged, a point is missing or unknown, or a number cannot be, with the line.
+    pub fn parse(text: &str) -> Result<Self> {
+        let table: Table = from_toml(text)?;
+        let line = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map_or(1, |l| l + 1);
+        if table.format != FORMAT {
+            return Err(Fault::new(format!("format {} is not known to this version", table.format))
+                .line(line("format"))
+                .help(format!("this version reads format {FORMAT}")));
+        }
+        if table.photo.len() != 64 || !table.photo.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return Err(Fault::new("`photo` is not 64 hexadecimal digits")
+                .line(line("photo"))
+                .help("move the file aside and run `lianpu calibrate`"));
+        }
+        let known: Vec<FeaturePoint> = Binding::own_points().collect();
+        for (name, row) in &table.points {
+            let key = format!("\"{name}\"");
+            if !FeaturePoint::named(name).is_some_and(|p| known.contains(&p)) {
+                return Err(Fault::new(format!("a shot has no point \"{name}\""))
+                    .line(line(&key))
+                    .help("a shot has the points of the face without ears and hair"));
+            }
+            if ![row.x, row.y].iter().all(|v| v.abs() <= MAX_COORDINATE) {
+                return Err(Fault::new(format!("point {name} lies nowhere near a photo"))
+                    .line(line(&key))
+                    .help("give pixels of the photo"));
+            }
+            if !(0.0..=1.0).contains(&row.confidence) {
+                return Err(Fault::new(format!("the confidence of point {name} is not from 0 to 1"))
+                    .line(line(&key))
+                    .help("write 1 for a point that you have set, or leave it out"));
+            }
+        }
+        let mut points = Vec::with_capacity(known.len());
+        for p in known {
+            let row = table.points.get(&p.name()).ok_or_else(|| {
+                Fault::new(format!("[points] lacks \"{p}\""))
+                    .line(line("[points]"))
+                    .help("put it back, or move the file aside and run `lianpu calibrate`")
+            })?;
+            points.push(Placed { at: Point::new(row.x, row.y), confidence: row.confidence, how: row.how });
+        }
+        Ok(Self { points, photo: table.photo })
+    }
+}

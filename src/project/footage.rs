@@ -1,0 +1,98 @@
+//! What tracking found in a clip's video, as one edit takes it and as the clip's files keep it.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::change::stale;
+use super::save::{checksum, remove, write_changed};
+use super::{Change, Clip, Edit, Lesson, counted};
+use crate::disk::Result;
+use crate::emotion::{Record, Tracks};
+use crate::track::Tracked;
+
+/// The record and the tracks of a clip, as the text of their files.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Footage {
+    /// `ratios.csv`; none where there is no record.
+    pub ratios: Option<String>,
+    /// `tracks.csv`; none where there are no tracks.
+    pub tracks: Option<String>,
+    /// The checksum of video and calibration they were found with, where they were found in a video.
+    pub tracked: Option<String>,
+}
+
+impl Clip {
+    pub(super) fn footage(&self) -> Footage {
+        Footage {
+            ratios: self.record.as_ref().map(Record::to_csv),
+            tracks: self.tracks.as_ref().map(Tracks::to_csv),
+            tracked: self.score.tracked.clone(),
+        }
+    }
+
+    /// Puts what was found in a video in the place of what was there.
+    pub(super) fn take_footage(&mut self, before: &Footage, after: &Footage) -> Result<()> {
+        if self.footage() != *before {
+            return Err(stale());
+        }
+        let record = after.ratios.as_deref().map(Record::parse).transpose()?;
+        let tracks = after.tracks.as_deref().map(Tracks::parse).transpose()?;
+        (self.record, self.tracks) = (record, tracks);
+        self.score.tracked.clone_from(&after.tracked);
+        self.footage_changed = true;
+        Ok(())
+    }
+
+    /// Writes `ratios.csv` and `tracks.csv` where an edit has changed them, and removes what an undo has taken back.
+    pub(super) fn save_footage(&mut self) -> Result<Vec<PathBuf>> {
+        if !self.footage_changed {
+            return Ok(Vec::new());
+        }
+        let Footage { ratios, tracks, .. } = self.footage();
+        let mut written = Vec::new();
+        for (name, text, seen) in
+            [("ratios.csv", ratios, &mut self.seen.ratios), ("tracks.csv", tracks, &mut self.seen.tracks)]
+        {
+            let path = self.folder.join(name);
+            match text {
+                Some(text) => written.extend(write_changed(path, &text, seen)?),
+                None if seen.is_some() && checksum(&path) == *seen => {
+                    remove(&path)?;
+                    *seen = None;
+                    written.push(path);
+                }
+                None => {}
+            }
+        }
+        self.footage_changed = false;
+        Ok(written)
+    }
+}
+
+impl Lesson {
+    /// The change that gives a clip what was found in its video; none where that is what it has.
+    #[must_use]
+    pub fn tracked(&self, number: usize, tracked: &Tracked, checksum: String) -> Option<Change> {
+        let before = self.clips.get(number)?.footage();
+        let after = Footage {
+            ratios: Some(tracked.record.to_csv()),
+            tracks: Some(tracked.tracks.to_csv()),
+            tracked: Some(checksum),
+        };
+        if before == after {
+            return None;
+        }
+        let edit = Edit::Tracked { clip: number, before: Box::new(before), after: Box::new(after) };
+        Some(Change::one(format!("{} tracked", counted(tracked.record.rows.len(), "frame")), edit))
+    }
+
+    /// Gives a clip what was found in its video, in memory only: for an export of a lesson that was never tracked.
+    pub fn take_tracked(&mut self, number: usize, tracked: Tracked, checksum: String) {
+        if let Some(clip) = self.clips.get_mut(number) {
+            clip.record = Some(tracked.record);
+            clip.tracks = Some(tracked.tracks);
+            clip.score.tracked = Some(checksum);
+        }
+    }
+}

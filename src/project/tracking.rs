@@ -1,0 +1,172 @@
+//! The face in a clip's video followed: what it takes as something that can go to a thread, and the calibration that it
+//! goes by.
+//!
+//! How a face is followed is the business of `track`, what its shapes mean that of `emotion`.
+
+use std::path::PathBuf;
+
+use super::video::FRAMES_FPS;
+use super::{Clip, Lesson};
+use crate::disk::{Fault, Result};
+use crate::emotion::Kept;
+use crate::face::Face;
+use crate::photo::Photo;
+use crate::track::{self, Options, Source, Tracked};
+
+/// How a face is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Method {
+    /// By the person's active appearance model (paper sec. 3).
+    #[default]
+    Aam,
+    /// By regions of eyes and mouth (thesis sec. 6.2).
+    Regions,
+}
+
+/// A clip's video to be followed, apart from its lesson.
+#[derive(Debug, Clone)]
+pub struct TrackJob {
+    source: Source,
+    face_folder: PathBuf,
+    face: Option<Face>,
+    method: Method,
+    options: Options,
+}
+
+/// What a job has found.
+#[derive(Debug)]
+pub struct Followed {
+    /// Ratios, eyes, mouth and head, and what there is to say of them.
+    pub tracked: Tracked,
+    /// The checksum of what it was found from.
+    pub checksum: String,
+    /// What there is to say of the calibration.
+    pub notes: Vec<String>,
+}
+
+impl TrackJob {
+    /// What it takes to follow the face in a clip's video.
+    ///
+    /// # Errors
+    /// When the clip has no video, its face no photo, or the video cannot be opened.
+    pub fn of(lesson: &Lesson, number: usize, method: Method, options: Options) -> Result<Self> {
+        let clip = lesson.clips.get(number).ok_or_else(|| Fault::new("there is no such clip"))?;
+        let Some(source) = clip.source()? else {
+            return Err(Fault::new(format!("the clip `{}` has no video", clip.entry.name))
+                .at(&clip.folder)
+                .help("put it there as video.mp4, or as pictures in a folder frames/"));
+        };
+        let face = lesson
+            .manifest
+            .face_of(&clip.entry)
+            .and_then(|entry| lesson.faces.iter().find(|f| f.entry.name == entry.name))
+            .ok_or_else(|| {
+                Fault::new(format!("the clip `{}` has no face to compare its video with", clip.entry.name))
+                    .at(&lesson.root)
+                    .help("add a [[face]] to lianpu.toml, and its photo as faces/NAME/neutral.png")
+            })?;
+        Ok(Self {
+            source,
+            face_folder: face.folder.clone(),
+            face: face.points()?.map(std::borrow::Cow::into_owned),
+            method,
+            options,
+        })
+    }
+
+    /// How many frames there are, where that is known.
+    #[must_use]
+    pub fn count(&self) -> Option<usize> {
+        self.source.count()
+    }
+
+    /// Follows the face through the video. `go_on` is told how many frames are done, of how many, and stops it by
+    /// `false`.
+    ///
+    /// # Errors
+    /// When the calibration or a frame cannot be read, or it was stopped.
+    pub fn run(&self, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Followed> {
+        let (kept, notes) = calibration(&self.face_folder)?;
+        let checksum = checksum(&self.source, &kept, self.method, &self.options)?;
+        let made = &kept.made;
+        let tracked = match self.method {
+            Method::Aam => track::by_aam(&self.source, &made.model, &made.calibration, &self.options, go_on)?,
+            Method::Regions => {
+                let face = self.face.as_ref().ok_or_else(|| {
+                    Fault::new("the face has no points to find its regions by")
+                        .at(&self.face_folder)
+                        .help("`lianpu face` finds them")
+                })?;
+                track::by_regions(&self.source, face, Some(&made.calibration), &self.options, go_on)?
+            }
+        };
+        Ok(Followed { tracked, checksum, notes })
+    }
+}
+
+/// The calibration of a face's folder: that of its files, or one made now, with a note where that differs.
+fn calibration(folder: &std::path::Path) -> Result<(Kept, Vec<String>)> {
+    match Kept::read(folder)? {
+        Some(kept) if kept.is_of(folder) => Ok((kept, Vec::new())),
+        Some(_) => {
+            let note = "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
+            Ok((Kept::make(folder)?, vec![note.into()]))
+        }
+        None => {
+            let kept = Kept::make(folder)?;
+            let notes = kept.made.quality.notes.clone();
+            Ok((kept, notes))
+        }
+    }
+}
+
+/// What is found in a video hangs on this.
+fn checksum(source: &Source, kept: &Kept, method: Method, options: &Options) -> Result<String> {
+    let text = format!("{} {} {method:?} {options:?}", source.fingerprint()?, kept.fingerprint());
+    Ok(format!("{:08x}", crc32fast::hash(text.as_bytes())))
+}
+
+impl Clip {
+    /// Its video as a stream of frames; none where it has none.
+    ///
+    /// # Errors
+    /// When it cannot be opened.
+    pub fn source(&self) -> Result<Option<Source>> {
+        self.video.as_ref().map(|path| Source::of(path, self.entry.video_fps.unwrap_or(FRAMES_FPS))).transpose()
+    }
+
+    /// The frame of its video that is shown at a time; none where it has none, or it has ended.
+    ///
+    /// # Errors
+    /// When the video cannot be read.
+    pub fn frame_at(&self, time: f64) -> Result<Option<Photo>> {
+        let Some(source) = self.source()? else { return Ok(None) };
+        if source.duration().is_some_and(|end| time >= end) {
+            return Ok(None);
+        }
+        source.frame_at(time).map(Some)
+    }
+
+    /// Whether the face in its video is still to be followed.
+    #[must_use]
+    pub fn wants_tracking(&self) -> bool {
+        self.video.is_some() && (self.record.is_none() || self.tracks.is_none()) && self.score.tracked.is_none()
+    }
+}
+
+impl Lesson {
+    /// Whether a clip's video is to be followed: it never was, or by another way, or the video or the calibration was
+    /// another.
+    ///
+    /// # Errors
+    /// When the video cannot be read.
+    pub fn is_tracked_anew(&self, number: usize, method: Method, options: &Options) -> Result<bool> {
+        let Some(clip) = self.clips.get(number) else { return Ok(false) };
+        let (Some(before), Some(source)) = (&clip.score.tracked, clip.source()?) else {
+            return Ok(clip.wants_tracking());
+        };
+        let folder = self.manifest.face_of(&clip.entry).map(|f| self.root.join("faces").join(&f.name));
+        let Some(kept) = folder.map(|f| Kept::read(&f)).transpose()?.flatten() else { return Ok(false) };
+        Ok(checksum(&source, &kept, method, options)? != *before)
+    }
+}
