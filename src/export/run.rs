@@ -108,15 +108,19 @@ fn elsewhere(fault: Fault) -> Fault {
     fault.help("choose another place with --out DIR")
 }
 
-/// The drawing of a frame, titled by lesson and time.
-fn drawing_of(job: &Job, frame: u32) -> Drawing {
-    let time = job.timeline.time_of(frame);
-    let mut drawing = job.figure.draw(&rounded(&job.timeline.pose(time)));
-    drawing.title = format!("{}, {time:.2} s", job.title);
-    if let Some(background) = job.background {
-        drawing.background = background;
+impl Job {
+    /// The drawing of a frame, titled by lesson and time. Its pose is rounded, by less than can be seen, so that equal
+    /// instants of a movement are equal frames.
+    #[must_use]
+    pub fn drawing(&self, frame: u32) -> Drawing {
+        let time = self.timeline.time_of(frame);
+        let mut drawing = self.figure.draw(&rounded(&self.timeline.pose(time)));
+        drawing.title = format!("{}, {time:.2} s", self.title);
+        if let Some(background) = self.background {
+            drawing.background = background;
+        }
+        drawing
     }
-    drawing
 }
 
 /// Writes the frames of a job: each thread its own stretch, for neighbours have most in common.
@@ -142,7 +146,7 @@ fn write_frames(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), 
                 if stop.load(Ordering::Relaxed) {
                     break;
                 }
-                let drawing = drawing_of(job, *frame);
+                let drawing = job.drawing(*frame);
                 if svg {
                     let path = job.path_of(*frame, Format::Svg);
                     let text = to_svg(&drawing, job.size[0], job.size[1]).into_bytes();
@@ -197,7 +201,7 @@ impl ClipOf<'_> {
         let mut samples: Vec<u32> =
             (0..SAMPLES).map(|i| (u64::from(last) * u64::from(i) / u64::from(SAMPLES - 1)) as u32).collect();
         samples.dedup();
-        let drawings: Vec<Drawing> = samples.into_iter().map(|frame| drawing_of(self.job, frame)).collect();
+        let drawings: Vec<Drawing> = samples.into_iter().map(|frame| self.job.drawing(frame)).collect();
         let [width, height] = self.job.size;
         ClipCoder::new(width, height, &drawings)
     }

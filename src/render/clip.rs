@@ -52,6 +52,8 @@ pub struct FrameCoder<'a> {
     painter: Painter,
     pieces: Recent<Piece>,
     bands: Recent<Band>,
+    bits: Bits,
+    data: Vec<u8>,
 }
 
 impl ClipCoder {
@@ -100,7 +102,14 @@ impl ClipCoder {
     /// As for [`ClipCoder::new`].
     pub fn frames(&self) -> Result<FrameCoder<'_>> {
         let painter = Painter::new(self.size.0, self.size.1)?;
-        Ok(FrameCoder { clip: self, painter, pieces: Recent::new(KEPT), bands: Recent::new(KEPT) })
+        Ok(FrameCoder {
+            clip: self,
+            painter,
+            pieces: Recent::new(KEPT),
+            bands: Recent::new(KEPT),
+            bits: Bits::default(),
+            data: Vec::new(),
+        })
     }
 }
 
@@ -111,7 +120,7 @@ impl FrameCoder<'_> {
     /// # Errors
     /// When it cannot be encoded.
     pub fn encode(&mut self, drawing: &Drawing, key: &str) -> Result<Vec<u8>> {
-        let Self { clip, painter, pieces, bands } = self;
+        let Self { clip, painter, pieces, bands, bits, data } = self;
         let plan = painter.plan(drawing);
         if clip.channels == 3 && !plan.is_opaque() {
             // None of the samples was like this one.
@@ -137,19 +146,18 @@ impl FrameCoder<'_> {
                 // Tiles that look alike, such as empty ones, are told once.
                 let print = plan.prints[tile];
                 let piece = pieces.get(&print).unwrap_or_else(|| {
-                    let piece = Arc::new(Piece::new(canvas, grid.tile(tile), clip.channels, &clip.table));
+                    let piece = Arc::new(Piece::new(canvas, grid.tile(tile), clip.channels, &clip.table, bits));
                     pieces.put(print, Arc::clone(&piece), piece.size());
                     piece
                 });
                 ready[tile] = Some(piece);
             }
-            let mut bits = Bits::default();
             let high = band_area(row, clip.size).height();
             let pieces_of_row: Vec<&Piece> = ready[tiles].iter().flatten().map(Arc::as_ref).collect();
-            let sum = splice(&pieces_of_row, high, &clip.table, &mut bits);
-            let mut data = Vec::with_capacity(bits.bytes.len() + 12);
-            chunk(&mut data, *b"IDAT", &bits.bytes);
-            let band = Arc::new(Band { chunk: data, sum });
+            let sum = splice(&pieces_of_row, high, &clip.table, bits);
+            data.clear();
+            bits.drain_into(data);
+            let band = Arc::new(Band::new(data, sum));
             bands.put(prints[row], Arc::clone(&band), band.chunk.len() + size_of::<Band>());
             found[row] = Some(band);
         }
@@ -173,6 +181,12 @@ impl FrameCoder<'_> {
 }
 
 impl Band {
+    fn new(data: &[u8], sum: Sum) -> Self {
+        let mut all = Vec::with_capacity(data.len() + 12);
+        chunk(&mut all, *b"IDAT", data);
+        Self { chunk: all, sum }
+    }
+
     /// A band compressed as well as can be.
     fn best(canvas: &Canvas, area: Area, channels: usize) -> Self {
         let told = |differences| {
@@ -187,9 +201,7 @@ impl Band {
                 (out, bytes) = by_differences;
             }
         }
-        let mut data = Vec::with_capacity(out.len() + 12);
-        chunk(&mut data, *b"IDAT", &out);
-        Self { chunk: data, sum: Sum::of(&bytes) }
+        Self::new(&out, Sum::of(&bytes))
     }
 }
 

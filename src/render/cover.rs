@@ -71,9 +71,9 @@ impl Cover {
             }
             return Some((first, last));
         }
-        let (dx, dy) = (i64::from(edge.x1 - edge.x0), i64::from(edge.y1 - edge.y0));
         // The place on the edge at a height: always from the edge's own ends, so that it is the same in every tile.
-        let at = |y: i32| edge.x0 + (i64::from(y - edge.y0) * dx).div_euclid(dy) as i32;
+        let slope = f64::from(edge.x1 - edge.x0) / f64::from(edge.y1 - edge.y0);
+        let at = |y: i32| edge.x0 + (f64::from(y - edge.y0) * slope) as i32;
         let mut y_from = edge.y0.max(first << BITS);
         let mut from = if y_from == edge.y0 { edge.x0 } else { at(y_from) };
         for y in first..=last {
@@ -90,17 +90,24 @@ impl Cover {
     fn piece(&mut self, y: i32, from: i32, to: i32, high: i32, frame: Frame) {
         let (left, right) = (from.min(to), from.max(to));
         let (cell, end) = (left >> BITS, right >> BITS);
-        if cell == end {
+        if cell >= frame.area.x1 {
+            return;
+        }
+        if cell == end && cell >= frame.area.x0 {
             self.cell(y, cell, left + right - 2 * (cell << BITS), high, frame);
             return;
         }
-        let wide = i64::from(right - left);
-        // The height reached at a pixel's side, rounded the same way whichever way the outline runs.
-        let reached = |x: i32| (i64::from(high.abs()) * i64::from(x - left) / wide) as i32 * high.signum();
-        let (mut x, mut done, mut cell) = (left, 0, cell);
         let side = frame.area.x0 << BITS;
+        if right <= side {
+            self.add(y, frame.area.x0, high * 2 * ONE, frame);
+            return;
+        }
+        // The height reached at a pixel's side, rounded the same way whichever way the outline runs.
+        let rate = f64::from(high.abs()) / f64::from(right - left);
+        let reached = |x: i32| (f64::from(x - left) * rate) as i32 * high.signum();
+        let (mut x, mut done, mut cell) = (left, 0, cell);
         if left < side {
-            done = if right <= side { high } else { reached(side) };
+            done = reached(side);
             self.add(y, frame.area.x0, done * 2 * ONE, frame);
             (x, cell) = (side, frame.area.x0);
         }
@@ -112,18 +119,19 @@ impl Cover {
         }
     }
 
-    /// Adds what lies in one pixel: `beside` is the sum of the two distances from the pixel's left side.
+    /// Adds what lies in one pixel of the part: `beside` is the sum of the two distances from the pixel's left side.
     #[inline]
     fn cell(&mut self, y: i32, x: i32, beside: i32, high: i32, frame: Frame) {
-        if x < frame.area.x0 {
-            self.add(y, frame.area.x0, high * 2 * ONE, frame);
-        } else if x < frame.area.x1 {
-            let place = (y - frame.area.y0) as usize * frame.stride + (x - frame.area.x0) as usize;
-            let part = high * beside;
-            self.sums[place] += high * 2 * ONE - part;
-            self.sums[place + 1] += part;
-            self.marks[place / 64] |= 1 << (place % 64);
-            self.marks[(place + 1) / 64] |= 1 << ((place + 1) % 64);
+        let place = (y - frame.area.y0) as usize * frame.stride + (x - frame.area.x0) as usize;
+        let part = high * beside;
+        let sums = &mut self.sums[place..place + 2];
+        sums[0] += high * 2 * ONE - part;
+        sums[1] += part;
+        // The next pixel may be the next word's first.
+        let (word, bit) = (place / 64, place % 64);
+        self.marks[word] |= 3 << bit;
+        if bit == 63 {
+            self.marks[word + 1] |= 1;
         }
     }
 

@@ -106,7 +106,9 @@ impl Edges {
 }
 
 fn whole(p: Point) -> (i32, i32) {
-    let one = |v: f64| (v.clamp(-FAR, FAR) * f64::from(1 << BITS) + 0.5).floor() as i32;
+    // Rounded by cutting off what follows the point of a positive number: that needs no call of a function.
+    const PARTS: f64 = (1 << BITS) as f64;
+    let one = |v: f64| ((v.clamp(-FAR, FAR) + FAR) * PARTS + 0.5) as i64 as i32 - (FAR * PARTS) as i32;
     (one(p.x), one(p.y))
 }
 
@@ -115,7 +117,7 @@ fn cubic(p: Point, a: Point, b: Point, q: Point, to: &mut impl FnMut(Point)) {
     let bend = |a: Point, b: Point, c: Point| (a.to_vec2() - 2.0 * b.to_vec2() + c.to_vec2()).hypot2();
     let most = bend(p, a, b).max(bend(a, b, q)).sqrt();
     // Not a number where a coordinate is none: one step.
-    let steps = (0.75 * most / FLAT).sqrt().ceil().clamp(1.0, 500.0) as u32;
+    let steps = ((0.75 * most / FLAT).sqrt() as u32 + 1).min(500);
     let (c3, c2, c1): (Vec2, Vec2, Vec2) =
         (q - p + 3.0 * (a - b), 3.0 * (p.to_vec2() - 2.0 * a.to_vec2() + b.to_vec2()), 3.0 * (a - p));
     let step = 1.0 / f64::from(steps);

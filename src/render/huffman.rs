@@ -1,9 +1,9 @@
 //! Codes of few bits for what is frequent, and the bits themselves, in the order that deflate has them (RFC 1951).
 
 /// Bits one after another, the lowest of a byte first.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Bits {
-    pub(super) bytes: Vec<u8>,
+    words: Vec<u32>,
     open: u64,
     count: u32,
 }
@@ -15,7 +15,7 @@ impl Bits {
         self.open |= bits << self.count;
         self.count += count;
         if self.count >= 32 {
-            self.bytes.extend_from_slice(&(self.open as u32).to_le_bytes());
+            self.words.push(self.open as u32);
             self.open >>= 32;
             self.count -= 32;
         }
@@ -23,36 +23,56 @@ impl Bits {
 
     /// How many there are.
     pub(super) fn len(&self) -> usize {
-        8 * self.bytes.len() + self.count as usize
+        32 * self.words.len() + self.count as usize
     }
 
     /// Appends `count` bits of whole words.
+    #[inline]
     pub(super) fn append(&mut self, words: &[u32], count: usize) {
-        let whole = count / 32;
-        for word in &words[..whole] {
-            self.put(u64::from(*word), 32);
+        let (whole, rest) = (count / 32, (count % 32) as u32);
+        if self.count == 0 {
+            self.words.extend_from_slice(&words[..whole]);
+        } else {
+            self.words.extend(words[..whole].iter().map(|word| {
+                self.open |= u64::from(*word) << self.count;
+                let full = self.open as u32;
+                self.open >>= 32;
+                full
+            }));
         }
-        if !count.is_multiple_of(32) {
-            self.put(u64::from(words[whole]), (count % 32) as u32);
+        if rest > 0 {
+            self.put(u64::from(words[whole]), rest);
         }
     }
 
-    /// Ends in whole words; how many bits of them are meant.
-    pub(super) fn into_words(mut self) -> (Vec<u32>, usize) {
-        let count = self.len();
-        self.put(0, 31);
-        let words = self.bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        (words.collect(), count)
+    /// Appends zeros up to the next whole word.
+    pub(super) fn fill_word(&mut self) {
+        if self.count > 0 {
+            self.put(0, 32 - self.count);
+        }
     }
 
     /// Appends zeros up to the next whole byte.
-    pub(super) fn align(&mut self) {
-        while self.count > 0 {
-            self.bytes.push(self.open as u8);
-            self.open >>= 8;
-            self.count = self.count.saturating_sub(8);
-        }
-        self.open = 0;
+    pub(super) fn fill_byte(&mut self) {
+        self.put(0, (8 - self.count % 8) % 8);
+    }
+
+    /// All words; bits beyond the last whole one are not among them.
+    pub(super) fn words(&self) -> &[u32] {
+        &self.words
+    }
+
+    /// Gives all of them, which are whole bytes, to `file`, and starts anew.
+    pub(super) fn drain_into(&mut self, file: &mut Vec<u8>) {
+        file.extend(self.words.iter().flat_map(|word| word.to_le_bytes()));
+        file.extend_from_slice(&(self.open as u32).to_le_bytes()[..(self.count / 8) as usize]);
+        self.clear();
+    }
+
+    /// Forgets them, but not their memory.
+    pub(super) fn clear(&mut self) {
+        self.words.clear();
+        (self.open, self.count) = (0, 0);
     }
 }
 
@@ -140,8 +160,11 @@ mod tests {
         bits.put(0b101, 3);
         bits.append(&[0xDEAD_BEEF, 0x3], 34);
         assert_eq!(bits.len(), 37);
-        bits.align();
-        let all = bits.bytes.iter().rev().fold(0_u64, |all, b| all << 8 | u64::from(*b));
-        assert_eq!(all, 0b101 | 0x3_DEAD_BEEF << 3);
+        bits.fill_byte();
+        let mut bytes = Vec::new();
+        bits.drain_into(&mut bytes);
+        let all = bytes.iter().rev().fold(0_u64, |all, b| all << 8 | u64::from(*b));
+        assert_eq!((all, bytes.len()), (0b101 | 0x3_DEAD_BEEF << 3, 5));
+        assert_eq!(bits.len(), 0);
     }
 }

@@ -15,8 +15,11 @@ pub(super) fn paint(canvas: &mut Canvas, leaf: &Leaf, within: Area, cover: &mut 
     match &leaf.shape {
         Shape::Nothing => {}
         Shape::Fill { edges, pixel } => cover.spans(edges, area, |y, x0, x1, share| {
-            let row = canvas.row_mut(y, x0, x1);
-            lay(row, if share == 255 { *pixel } else { scaled(*pixel, share) });
+            let source = if share == 255 { *pixel } else { scaled(*pixel, share) };
+            match canvas.row_mut(y, x0, x1) {
+                [one] => *one = over(source, *one),
+                row => lay(row, source),
+            }
         }),
         Shape::Glow { to_disc, colour } => glow(canvas, *to_disc, *colour, area),
         Shape::Clipped { edges, leaves } => {

@@ -11,8 +11,8 @@ pub(super) const FILTERS: [u8; 2] = [0, 2];
 
 /// A tile in the codes of a table.
 pub(super) struct Piece {
-    rows: Vec<Row>,
-    words: Vec<u32>,
+    rows: Box<[Row]>,
+    words: Box<[u32]>,
 }
 
 /// A row: zeros, bits, zeros. The zeros at the ends may run on into the neighbouring tiles.
@@ -25,26 +25,30 @@ struct Row {
 }
 
 impl Piece {
-    /// The tile `area` of a picture whose pixels have 3 channels or 4.
-    pub(super) fn new(canvas: &Canvas, area: Area, channels: usize, table: &Table) -> Self {
-        let mut piece = Self { rows: Vec::with_capacity(area.height()), words: Vec::new() };
+    /// The tile `area` of a picture whose pixels have 3 channels or 4. `bits` is room to work in.
+    pub(super) fn new(canvas: &Canvas, area: Area, channels: usize, table: &Table, bits: &mut Bits) -> Self {
+        bits.clear();
+        let mut told = Vec::with_capacity(area.height());
         let mut rows = Rows::new(canvas, area, channels);
         for y in area.y0..area.y1 {
             let (now, above) = rows.at(y);
-            let mut bits = Bits::default();
-            let mut sink = Coded { table, bits: &mut bits };
+            let start = bits.len();
+            let mut sink = Coded { table, bits };
             let (before, after, sum) = match above {
                 None => (0, 0, tell_first(now, channels, &mut sink)),
                 Some(above) => tell_differences(now, above, channels, &mut sink),
             };
-            let start = piece.words.len() as u32;
-            let count = bits.len();
-            if count > 0 {
-                piece.words.extend(bits.into_words().0);
-            }
-            piece.rows.push(Row { before: before as u32, start, bits: count as u32, after: after as u32, sum });
+            let count = bits.len() - start;
+            bits.fill_word();
+            told.push(Row {
+                before: before as u32,
+                start: (start / 32) as u32,
+                bits: count as u32,
+                after: after as u32,
+                sum,
+            });
         }
-        piece
+        Self { rows: told.into(), words: bits.words().into() }
     }
 
     /// Bytes of memory that it takes.
@@ -56,6 +60,7 @@ impl Piece {
 /// Puts tiles that lie side by side together to a band's bits, and adds its bytes up.
 pub(super) fn splice(pieces: &[&Piece], high: usize, table: &Table, bits: &mut Bits) -> Sum {
     let mut sum = Sum::default();
+    bits.clear();
     table.open(bits);
     let mut sink = Coded { table, bits };
     for y in 0..high {

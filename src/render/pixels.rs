@@ -120,16 +120,28 @@ impl Painter {
     /// Paints one drawing.
     #[must_use]
     pub fn paint(&mut self, drawing: &Drawing) -> Picture {
-        let plan = self.plan(drawing);
-        self.refresh(&plan, |_| true);
+        let mut picture = Picture { width: self.width, height: self.height, rgba: Vec::new() };
+        self.paint_into(drawing, &mut picture);
+        picture
+    }
+
+    /// Paints one drawing into a picture, whose memory is used again.
+    pub fn paint_into(&mut self, drawing: &Drawing, picture: &mut Picture) {
+        let opaque = self.update(drawing);
         let pixels = self.whole.canvas.pixels();
-        let mut rgba = vec![0; 4 * pixels.len()];
-        let opaque = plan.is_opaque();
-        for (bytes, pixel) in rgba.chunks_exact_mut(4).zip(pixels) {
+        (picture.width, picture.height) = (self.width, self.height);
+        picture.rgba.resize(4 * pixels.len(), 0);
+        for (bytes, pixel) in picture.rgba.chunks_exact_mut(4).zip(pixels) {
             let pixel = if opaque { *pixel } else { straight(*pixel) };
             bytes.copy_from_slice(&pixel.to_le_bytes());
         }
-        Picture { width: self.width, height: self.height, rgba }
+    }
+
+    /// Paints one drawing without handing it out. Returns whether no pixel lets through what is behind it.
+    pub fn update(&mut self, drawing: &Drawing) -> bool {
+        let plan = self.plan(drawing);
+        self.refresh(&plan, |_| true);
+        plan.is_opaque()
     }
 
     pub(super) fn grid(&self) -> Grid {

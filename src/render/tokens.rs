@@ -111,7 +111,8 @@ pub(super) struct Table {
     /// A run of so many, with its distance: of zeros, and of pixels.
     zeros: Vec<(u32, u8)>,
     again: Vec<(u32, u8)>,
-    header: (Vec<u32>, usize),
+    /// In whole words, and how many bits of them are meant.
+    header: (Box<[u32]>, usize),
 }
 
 impl Table {
@@ -155,8 +156,8 @@ impl Table {
         bits.put(u64::from(self.end.bits), u32::from(self.end.count));
         // An empty stored block.
         bits.put(0, 3);
-        bits.align();
-        bits.bytes.extend_from_slice(&[0, 0, 0xFF, 0xFF]);
+        bits.fill_byte();
+        bits.put(0xFFFF_0000, 32);
     }
 }
 
@@ -187,7 +188,7 @@ impl Sink for Coded<'_> {
 }
 
 /// The start of a block of such codes (RFC 1951, 3.2.7): the lengths, themselves in codes.
-fn header(symbols: &[u8], distances: &[u8]) -> (Vec<u32>, usize) {
+fn header(symbols: &[u8], distances: &[u8]) -> (Box<[u32]>, usize) {
     const ORDER: [usize; 19] = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
     let all: Vec<u8> = symbols.iter().chain(distances).copied().collect();
     // A length, or the length before three to six times more.
@@ -220,5 +221,7 @@ fn header(symbols: &[u8], distances: &[u8]) -> (Vec<u32>, usize) {
             bits.put(more, 2);
         }
     }
-    bits.into_words()
+    let count = bits.len();
+    bits.fill_word();
+    (bits.words().into(), count)
 }
