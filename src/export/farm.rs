@@ -234,27 +234,31 @@ mod tests {
         Farm { program: "lianpu", projects, options, out: Path::new("/out/a b"), tasks: 9, threads: 1, frames: 7500 }
     }
 
+    #[cfg(unix)]
     #[test]
     fn odd_paths_reach_the_program_as_they_are() {
-        let odd = "/l/it's \"$HOME\" `x` \\ {} * 您好;#!";
-        let options = ["--to".to_owned(), "png,svg".to_owned()];
-        let projects = [Path::new(odd)];
-        let farm = farm(&projects, &options);
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let program = folder.path().join("it's `lianpu`");
+        std::fs::write(&program, "#!/bin/sh\nprintf '%s|' \"$@\"\n").unwrap();
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+        let odd = "/l/it's \"$HOME\" `x` \\ {} * 您好;#! %a";
+        let (options, projects) = (["--to".to_owned(), "png,svg".to_owned()], [Path::new(odd)]);
+        let farm = Farm { program: program.to_str().unwrap(), ..farm(&projects, &options) };
         // The shell itself says what it understands.
-        let words = |script: String| {
-            let script =
-                script.replace("exec lianpu", "printf '%s\\n'").replace("lianpu merge", "printf '%s\\n' merge");
-            let out = std::process::Command::new("sh").args(["-c", &script, "task", "3"]).output().unwrap();
-            assert!(out.status.success(), "{out:?}");
+        let run = |script: String| {
+            let mut shell = std::process::Command::new("sh");
+            let out = shell.args(["-c", &script, "task", "3"]).env("SLURM_ARRAY_TASK_ID", "3").output().unwrap();
+            assert!(out.status.success(), "{script}\n{out:?}");
             String::from_utf8(out.stdout).unwrap()
         };
-        let task = farm.export(Engine::Parallel).unwrap();
-        let expected = format!("export\n--to\npng,svg\n--jobs\n1\n--out\n/out/a b\n--shard\n3/9\n--\n{odd}\n");
-        assert_eq!(words(format!("exec {task}")), expected);
+        let expected = format!("export|--to|png,svg|--jobs|1|--out|/out/a b|--shard|3/9|--|{odd}|");
+        assert_eq!(run(farm.export(Engine::Slurm).unwrap()), expected);
+        assert_eq!(run(farm.export(Engine::OpenJd).unwrap().replace("{{Task.Param.Part}}", "3")), expected);
         let job = farm.job(Engine::Parallel).unwrap();
-        let line = job.lines().find(|l| l.starts_with("LIANPU_TASK=")).unwrap();
-        assert_eq!(words(format!("{line}\nsh -c \"$LIANPU_TASK\" task 3")).lines().last(), Some(odd));
-        assert!(job.ends_with("\nlianpu merge '/out/a b'\n"));
+        let (start, _) = job.split_once("seq ").unwrap();
+        assert_eq!(run(format!("{start}sh -c \"$LIANPU_TASK\" task 3")), expected);
+        assert_eq!(run(job.lines().last().unwrap().to_owned()), "merge|/out/a b|");
     }
 
     #[test]

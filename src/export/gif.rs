@@ -145,22 +145,22 @@ impl Canvas {
             return self.longer(delay);
         };
         // What was there and is not any more cannot be painted over: the frame before has to clear it away.
-        if let Some(gone) = self.gone(area) {
-            if let Some(before) = &mut self.held {
-                let held = Area {
-                    x: before.left.into(),
-                    y: before.top.into(),
-                    width: before.width.into(),
-                    height: before.height.into(),
-                };
-                let cleared = held.union(gone);
-                let whole = cut(&self.shown, cleared, width);
-                place(before, cleared, whole);
-                before.dispose = DisposalMethod::Background;
-                area = area.union(cleared);
-                for row in cleared.rows(width, 1) {
-                    self.shown[row].fill(THROUGH);
-                }
+        if let Some(gone) = self.gone(area)
+            && let Some(before) = &mut self.held
+        {
+            let held = Area {
+                x: before.left.into(),
+                y: before.top.into(),
+                width: before.width.into(),
+                height: before.height.into(),
+            };
+            let cleared = held.union(gone);
+            let whole = cut(&self.shown, cleared, width);
+            place(before, cleared, whole);
+            before.dispose = DisposalMethod::Background;
+            area = area.union(cleared);
+            for row in cleared.rows(width, 1) {
+                self.shown[row].fill(THROUGH);
             }
         }
         let mut buffer = cut(&self.next, area, width);
