@@ -30,7 +30,11 @@ fn copied(photos: &[&str], frames: &[Vec<u8>]) -> tempfile::TempDir {
     }
     let (photo, sum) = Photo::read_with_sum(&face.join("neutral.png")).unwrap();
     std::fs::write(face.join("face.toml"), create(&photo, &sum, None, None).unwrap().face.to_toml()).unwrap();
-    if !frames.is_empty() {
+    if frames.is_empty() {
+        for name in ["script.txt", "speech.wav"] {
+            std::fs::copy(Path::new(XIYANG).join("clips/xiyang").join(name), clip.join(name)).unwrap();
+        }
+    } else {
         std::fs::create_dir(clip.join("frames")).unwrap();
         for (i, bytes) in frames.iter().enumerate() {
             std::fs::write(clip.join(format!("frames/{i:04}.jpg")), bytes).unwrap();
@@ -214,6 +218,17 @@ fn a_face_is_followed_shown_and_its_ratios_edited_and_what_was_tracked_stays() {
     assert!(score.contains("[[range]]"), "{score}");
     bench.keys("u");
     assert!((happy(&bench) - before).abs() < 1e-9);
+
+    // Ratios that somebody else made give way only when that was asked.
+    let score = file.with_file_name("score.toml");
+    std::fs::write(&score, "").unwrap();
+    std::fs::write(&file, tracked.replace(",0.9", ",0.8")).unwrap();
+    bench.keys("q q d Enter Enter T");
+    assert!(bench.message().contains("T again"), "{}", bench.message());
+    assert!(!bench.studio.state.is_unsaved());
+    bench.keys("T");
+    assert!(bench.message().contains("followed the face"), "{}", bench.message());
+    bench.keys("V");
 
     // A video that cannot be read is said, and nothing is shown.
     std::fs::write(bench.dir.path().join("nihao/clips/xiyang/frames/0003.jpg"), "no picture").unwrap();

@@ -94,7 +94,7 @@ impl Lesson {
         let before = self.clips.get(number)?.footage();
         let ratios = tracked.record.to_csv();
         let after = Footage {
-            tracked: Some(with_sum(&checksum, &ratios)),
+            tracked: Some(with_sum(checksum, &ratios)),
             ratios: Some(ratios),
             tracks: Some(tracked.tracks.to_csv()),
         };

@@ -72,7 +72,7 @@ impl Lesson {
             let before = face.shots[emotion.index()].marks.as_ref().map(Marks::to_toml);
             let after = kept.marks.iter().find(|(e, _)| e == emotion).map(|(_, m)| m.to_toml())?;
             let (face, shot) = (number, *emotion);
-            (before.as_ref() != Some(&after)).then(|| Edit::Marks { face, shot, before, after: Some(after) })
+            (before.as_ref() != Some(&after)).then_some(Edit::Marks { face, shot, before, after: Some(after) })
         });
         let edits: Vec<Edit> = marks.collect();
         Ok((!edits.is_empty()).then(|| Change { label: "find the points of the shots".into(), edits }))

@@ -6,10 +6,9 @@
 use std::path::PathBuf;
 
 use super::video::FRAMES_FPS;
-use super::{Clip, Lesson};
+use super::{Clip, Lesson, LessonFace};
 use crate::disk::{Fault, Result};
 use crate::emotion::Kept;
-use crate::face::Face;
 use crate::photo::Photo;
 use crate::track::{self, Options, Source, Tracked};
 
@@ -26,9 +25,9 @@ pub enum Method {
 /// A clip's video to be followed, apart from its lesson.
 #[derive(Debug, Clone)]
 pub struct TrackJob {
-    source: Source,
-    face_folder: PathBuf,
-    face: Option<Face>,
+    video: PathBuf,
+    fps: f64,
+    face: LessonFace,
     method: Method,
     options: Options,
 }
@@ -45,13 +44,13 @@ pub struct Followed {
 }
 
 impl TrackJob {
-    /// What it takes to follow the face in a clip's video.
+    /// What it takes to follow the face in a clip's video. Nothing is opened yet.
     ///
     /// # Errors
-    /// When the clip has no video, its face no photo, or the video cannot be opened.
+    /// When the clip has no video or no face.
     pub fn of(lesson: &Lesson, number: usize, method: Method, options: Options) -> Result<Self> {
         let clip = lesson.clips.get(number).ok_or_else(|| Fault::new("there is no such clip"))?;
-        let Some(source) = clip.source()? else {
+        let Some(video) = clip.video.clone() else {
             return Err(Fault::new(format!("the clip `{}` has no video", clip.entry.name))
                 .at(&clip.folder)
                 .help("put it there as video.mp4, or as pictures in a folder frames/"));
@@ -65,39 +64,30 @@ impl TrackJob {
                     .at(&lesson.root)
                     .help("add a [[face]] to lianpu.toml, and its photo as faces/NAME/neutral.png")
             })?;
-        Ok(Self {
-            source,
-            face_folder: face.folder.clone(),
-            face: face.points()?.map(std::borrow::Cow::into_owned),
-            method,
-            options,
-        })
-    }
-
-    /// How many frames there are, where that is known.
-    #[must_use]
-    pub fn count(&self) -> Option<usize> {
-        self.source.count()
+        Ok(Self { video, fps: clip.video_fps(), face: face.clone(), method, options })
     }
 
     /// Follows the face through the video. `go_on` is told how many frames are done, of how many, and stops it by
     /// `false`.
     ///
     /// # Errors
-    /// When the calibration or a frame cannot be read, or it was stopped.
+    /// When the video, the calibration or a frame cannot be read, the face has no points where they are needed, or it was
+    /// stopped.
     pub fn run(&self, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Followed> {
-        let (kept, notes) = calibration(&self.face_folder)?;
-        let checksum = checksum(&self.source, &kept, self.method, &self.options)?;
+        let source = Source::of(&self.video, self.fps)?;
+        let (kept, notes) = calibration(&self.face.folder)?;
+        let checksum = checksum(&source, &kept, self.method, &self.options)?;
         let made = &kept.made;
         let tracked = match self.method {
-            Method::Aam => track::by_aam(&self.source, &made.model, &made.calibration, &self.options, go_on)?,
+            Method::Aam => track::by_aam(&source, &made.model, &made.calibration, &self.options, go_on)?,
             Method::Regions => {
-                let face = self.face.as_ref().ok_or_else(|| {
+                let face = self.face.points()?;
+                let face = face.as_deref().ok_or_else(|| {
                     Fault::new("the face has no points to find its regions by")
-                        .at(&self.face_folder)
+                        .at(&self.face.folder)
                         .help("`lianpu face` finds them")
                 })?;
-                track::by_regions(&self.source, face, Some(&made.calibration), &self.options, go_on)?
+                track::by_regions(&source, face, Some(&made.calibration), &self.options, go_on)?
             }
         };
         Ok(Followed { tracked, checksum, notes })
@@ -132,7 +122,13 @@ impl Clip {
     /// # Errors
     /// When it cannot be opened.
     pub fn source(&self) -> Result<Option<Source>> {
-        self.video.as_ref().map(|path| Source::of(path, self.entry.video_fps.unwrap_or(FRAMES_FPS))).transpose()
+        self.video.as_ref().map(|path| Source::of(path, self.video_fps())).transpose()
+    }
+
+    /// Frames a second of its video, where that is a folder of pictures.
+    #[must_use]
+    pub fn video_fps(&self) -> f64 {
+        self.entry.video_fps.unwrap_or(FRAMES_FPS)
     }
 
     /// The frame of its video that is shown at a time; none where it has none, or it has ended.

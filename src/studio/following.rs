@@ -40,6 +40,10 @@ pub struct Footage {
     /// The clip whose video it is.
     clip: Option<usize>,
     source: Option<Source>,
+    /// Whether a thread is opening it.
+    opening: bool,
+    /// Whether it was asked if somebody else's ratios may be replaced.
+    asked: bool,
     /// Whether its frames are shown.
     pub shown: bool,
     /// The frame that was read last, by its number.
@@ -59,6 +63,13 @@ pub(super) fn ask(state: &mut State) -> Option<Job> {
         return None;
     }
     let clip = state.editor.as_ref().map(|e| e.clip).or_else(|| state.open.as_ref().map(|o| o.chosen))?;
+    let theirs = state.lesson()?.clips.get(clip)?;
+    let is_theirs = theirs.video.is_some() && theirs.record.is_some() && theirs.score.tracked.is_none();
+    if is_theirs && !std::mem::replace(&mut state.footage.asked, true) {
+        state.refuse("these ratios were not found here: T again puts those of the video in their place");
+        return None;
+    }
+    state.footage.asked = false;
     start(state, clip, true)
 }
 
@@ -89,8 +100,7 @@ fn start(state: &mut State, clip: usize, asked: bool) -> Option<Job> {
                 open.followed.insert(clip);
             }
             let stop = Arc::new(AtomicBool::new(false));
-            let done = (0, job.count());
-            state.following = Some(Following { root: root.clone(), clip, done, stop: Arc::clone(&stop) });
+            state.following = Some(Following { root: root.clone(), clip, done: (0, None), stop: Arc::clone(&stop) });
             Some(Job::Follow { root, clip, job: Box::new(job), stop })
         }
         Err(fault) => {
@@ -176,15 +186,15 @@ pub(super) fn missing(state: &mut State) -> Option<Job> {
         return None;
     }
     if state.footage.clip != Some(number) {
-        let source = state.clip()?.source();
         state.footage = Footage { clip: Some(number), shown: true, ..Footage::default() };
-        match source {
-            Ok(source) => state.footage.source = source,
-            Err(fault) => {
-                state.footage.shown = false;
-                state.say_fault(&fault);
-            }
-        }
+    }
+    if state.footage.source.is_none() {
+        let clip = state.clip()?;
+        let (path, fps) = (clip.video.clone()?, clip.video_fps());
+        let root = state.lesson()?.root.clone();
+        // What takes long is not waited for, and not begun twice.
+        let begun = std::mem::replace(&mut state.footage.opening, true);
+        return (!begun).then_some(Job::Video { root, clip: number, path, fps });
     }
     let source = state.footage.source.as_ref()?;
     let last = source.count().map_or(u32::MAX, |c| u32::try_from(c.saturating_sub(1)).unwrap_or(u32::MAX));
@@ -196,6 +206,25 @@ pub(super) fn missing(state: &mut State) -> Option<Job> {
     let root = state.lesson()?.root.clone();
     let source = Box::new(state.footage.source.clone()?);
     Some(Job::Frame { root, clip: number, source, number: wanted })
+}
+
+/// Takes a video that was opened; the job for its first frame.
+pub(super) fn opened(state: &mut State, root: &Path, clip: usize, source: Result<Source>) -> Option<Job> {
+    if state.lesson().is_none_or(|l| l.root != root) || state.footage.clip != Some(clip) {
+        return None;
+    }
+    state.footage.opening = false;
+    match source {
+        Ok(source) => {
+            state.footage.source = Some(source);
+            missing(state)
+        }
+        Err(fault) => {
+            state.footage.shown = false;
+            state.say_fault(&fault);
+            None
+        }
+    }
 }
 
 /// Takes a frame that was read; the job for the next one where the cursor has gone on.

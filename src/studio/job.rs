@@ -46,6 +46,17 @@ pub enum Job {
         /// Set to stop it.
         stop: Arc<AtomicBool>,
     },
+    /// Open a clip's video.
+    Video {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its file or folder.
+        path: PathBuf,
+        /// Frames a second of a folder of pictures.
+        fps: f64,
+    },
     /// Read a frame of a clip's video.
     Frame {
         /// The lesson's folder.

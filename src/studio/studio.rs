@@ -30,6 +30,7 @@ use crate::pose::Emotion;
 use crate::project::Followed;
 use crate::project::{Finding, Lesson};
 use crate::speech::{Alignment, Heard, Spectrogram};
+use crate::track::Source;
 
 /// What a thread has to tell.
 #[derive(Debug)]
@@ -76,6 +77,15 @@ pub enum Report {
         clip: usize,
         /// What was found.
         found: Box<Result<Followed>>,
+    },
+    /// A clip's video was opened, or cannot be.
+    VideoOpened {
+        /// The lesson's folder.
+        root: PathBuf,
+        /// Number of the clip.
+        clip: usize,
+        /// Its frames.
+        source: Box<Result<Source>>,
     },
     /// A frame of a clip's video was read, or cannot be.
     FrameRead {
@@ -339,6 +349,12 @@ impl Studio {
             Report::Followed { root, clip, found } => {
                 self.under_way -= 1;
                 following::found(&mut self.state, &root, clip, *found);
+            }
+            Report::VideoOpened { root, clip, source } => {
+                self.under_way -= 1;
+                if let Some(job) = following::opened(&mut self.state, &root, clip, *source) {
+                    self.start(job);
+                }
             }
             Report::FrameRead { root, clip, number, photo } => {
                 self.under_way -= 1;

@@ -22,6 +22,7 @@ use crate::geometry::Point;
 use crate::photo::{Photo, Stages};
 use crate::project::{Lesson, check};
 use crate::speech::{Spectrogram, nuclei, pitch};
+use crate::track::Source;
 
 /// Starts a job. Whatever becomes of it, it reports its end.
 pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Exporter>>, aligner: Aligner) {
@@ -68,6 +69,11 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
                     || Fault::new("the face cannot be followed").help("please report what `lianpu track` says");
                 let found = Box::new(found.unwrap_or_else(|_| Err(broken())));
                 reports.send(Report::Followed { root, clip, found })
+            }
+            Job::Video { root, clip, path, fps } => {
+                let opened = catch_unwind(AssertUnwindSafe(|| Source::of(&path, fps)));
+                let source = Box::new(opened.unwrap_or_else(|_| Err(broken_photo())));
+                reports.send(Report::VideoOpened { root, clip, source })
             }
             Job::Frame { root, clip, source, number } => {
                 let read = catch_unwind(AssertUnwindSafe(|| source.frame(number)));

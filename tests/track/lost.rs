@@ -17,7 +17,7 @@ fn judge(name: &str, franck: &Franck, first: usize, stage: &Path, moved: impl Fn
         worst[1] = (a.left - b.left).abs().max((a.right - b.right).abs()).max(worst[1]);
         assert!(moved(n).is_some(), "{name}: frame {n} shows no face and is not lost");
     }
-    assert!(worst[0] < 0.45 && worst[1] < 0.25, "{name}: what is not lost is wrong: {worst:?}");
+    assert!(worst[0] < 0.45 && worst[1] < 0.3, "{name}: what is not lost is wrong: {worst:?}");
     println!(
         "{name}: lost {} of {count}; elsewhere ratios off by {:.3}, lids by {:.3} at most; {:?}",
         lost.iter().filter(|l| **l).count(),

@@ -107,7 +107,7 @@ pub(super) struct Known<'a> {
 }
 
 impl Known<'_> {
-    fn is_marked(&self) -> bool {
+    pub fn is_marked(&self) -> bool {
         self.hands.iter().all(|h| *h)
     }
 

@@ -40,11 +40,17 @@ fn opens(ground: &Ground, shot: &Known) -> bool {
     lower.y - upper.y > OPEN * left.distance(right)
 }
 
-/// Trains on the shots and on what the rig makes of the neutral one.
+/// Whether all seven shots are there and a hand has set all their points. Such a model is better left alone: what is
+/// made of the neutral shot crowds the true shapes and looks out of its modes.
+fn all_marked(known: &[Option<Known>; 7]) -> bool {
+    known.iter().all(|k| k.as_ref().is_some_and(Known::is_marked))
+}
+
+/// Trains on the shots and, where they are not all marked, on what the rig makes of the neutral one.
 pub(super) fn train(ground: &Ground, known: &[Option<Known>; 7]) -> Result<Model> {
     let shots: Vec<&Known> = known.iter().flatten().collect();
     let mut made = Vec::new();
-    if let Some(neutral) = &known[0] {
+    if let (Some(neutral), false) = (&known[0], all_marked(known)) {
         let scale = (MADE / ground.frame.scale()).min(1.0);
         let moves = made_moves(ground, known);
         made.extend(moves.iter().map(|m| bent(neutral.grey, &neutral.points, &ground.on_neutral(m), scale)));
