@@ -9,6 +9,7 @@ use std::sync::atomic::AtomicBool;
 use lianpu::export::{Format, Request, Written, plan, run, wholes, write_wholes};
 use lianpu::project::Lesson;
 use lianpu::render::Painter;
+use resvg::{tiny_skia, usvg};
 
 /// A title that breaks whatever is not escaped.
 const TITLE: &str = "您好 & <b>\\\"再見\\\"</b> {{DATA}}";
@@ -59,8 +60,8 @@ fn export(lesson: &Lesson, out: &Path, change: impl FnOnce(&mut Request), format
     write_wholes(lesson, &request, &all, &mut |_, _| {}, &go_on).unwrap()
 }
 
-fn text(path: PathBuf) -> String {
-    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+fn text(path: impl AsRef<Path>) -> String {
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.as_ref().display()))
 }
 
 /// An animated SVG as it stands at a frame, without animation.
@@ -120,9 +121,9 @@ fn an_animated_svg_shows_at_every_frame_what_the_frames_show_and_has_each_pose_o
         let last = timeline.frames() - 1;
         for frame in [0, 7, last / 2, last] {
             let still = at_frame(&svg, frame, timeline.frames());
-            let tree = resvg::usvg::Tree::from_str(&still, &resvg::usvg::Options::default()).unwrap();
-            let mut pixels = resvg::tiny_skia::Pixmap::new(640, 360).unwrap();
-            resvg::render(&tree, resvg::tiny_skia::Transform::identity(), &mut pixels.as_mut());
+            let tree = usvg::Tree::from_str(&still, &usvg::Options::default()).unwrap();
+            let mut pixels = tiny_skia::Pixmap::new(640, 360).unwrap();
+            resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
             let ours = painter.paint(&figure.draw(&timeline.pose(timeline.time_of(frame))));
             let differences = || pixels.data().iter().zip(&ours.rgba).map(|(a, b)| a.abs_diff(*b));
             let mean = differences().map(u32::from).sum::<u32>() as f64 / ours.rgba.len() as f64;

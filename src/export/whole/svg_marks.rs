@@ -18,9 +18,9 @@ pub(super) struct Defs {
 
 impl Defs {
     /// The id of a definition; `body` is the element from its name on, where `#` stands for the id.
-    fn id(&mut self, body: String) -> String {
+    fn id(&mut self, body: &str) -> String {
         let next = self.known.len();
-        let number = *self.known.entry(body.clone()).or_insert(next);
+        let number = *self.known.entry(body.to_owned()).or_insert(next);
         let id = format!("D{number}");
         if number == next {
             self.text.push_str(&body.replacen('#', &id, 1));
@@ -41,7 +41,7 @@ pub(super) fn write_marks<'a>(out: &mut String, marks: impl Iterator<Item = &'a 
                 out.push_str("\"/>");
             }
             Mark::Glow { at, radii, colour } => {
-                let id = defs.id(format!(
+                let id = defs.id(&format!(
                     "<radialGradient id=\"#\"><stop offset=\"0\" stop-color=\"{0}\" stop-opacity=\"{1}\"/><stop offset=\"1\" \
                      stop-color=\"{0}\" stop-opacity=\"0\"/></radialGradient>",
                     colour.hex(),
@@ -76,7 +76,7 @@ pub(super) fn write_marks<'a>(out: &mut String, marks: impl Iterator<Item = &'a 
             Mark::Clip { path, inside } => {
                 let mut data = String::new();
                 path_data(&mut data, path);
-                let id = defs.id(format!("<clipPath id=\"#\"><path d=\"{data}\"/></clipPath>"));
+                let id = defs.id(&format!("<clipPath id=\"#\"><path d=\"{data}\"/></clipPath>"));
                 let _ = write!(out, "<g clip-path=\"url(#{id})\">");
                 write_marks(out, inside.iter(), defs);
                 out.push_str("</g>");

@@ -37,7 +37,7 @@ pub(super) fn text(chapter: &Chapter, n: usize, language: &str) -> String {
     let (mut sentence, mut number) = (None, 0);
     let end = |out: &mut String, open: bool| {
         if open {
-            out.push_str("</p>\n")
+            out.push_str("</p>\n");
         }
     };
     for phrase in &chapter.phrases {
