@@ -19,6 +19,14 @@ pub enum Format {
     Epub,
     /// A clip as a Lottie animation.
     Lottie,
+    /// A clip as a video by ffmpeg: H.264 and AAC.
+    Mp4,
+    /// A clip as a video by ffmpeg: VP9 and Opus, with alpha.
+    Webm,
+    /// A clip as an animated GIF.
+    Gif,
+    /// A clip as an animated PNG.
+    Apng,
     /// The times as a Praat TextGrid.
     TextGrid,
     /// The times as SubRip subtitles.
@@ -45,13 +53,17 @@ pub enum Format {
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 21] = [
         Self::Svg,
         Self::Png,
         Self::Smil,
         Self::Html,
         Self::Epub,
         Self::Lottie,
+        Self::Mp4,
+        Self::Webm,
+        Self::Gif,
+        Self::Apng,
         Self::TextGrid,
         Self::Srt,
         Self::Vtt,
@@ -75,6 +87,10 @@ impl Format {
             Self::Html => "html",
             Self::Epub => "epub",
             Self::Lottie => "lottie",
+            Self::Mp4 => "mp4",
+            Self::Webm => "webm",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
             Self::TextGrid => "textgrid",
             Self::Srt => "srt",
             Self::Vtt => "vtt",
@@ -99,6 +115,12 @@ impl Format {
     #[must_use]
     pub const fn is_text(self) -> bool {
         matches!(self, Self::TextGrid | Self::Srt | Self::Vtt | Self::Poses)
+    }
+
+    /// Whether it is a clip's frames packed into one moving picture.
+    #[must_use]
+    pub const fn is_moving(self) -> bool {
+        matches!(self, Self::Mp4 | Self::Webm | Self::Gif | Self::Apng)
     }
 
     /// Whether all clips go into one file.

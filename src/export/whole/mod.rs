@@ -8,6 +8,7 @@ mod html;
 mod layers;
 mod lottie;
 mod mouths;
+mod moving;
 mod packed;
 mod ratios;
 mod shapes;
@@ -21,7 +22,7 @@ use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::parts::{self, Grid, Parts};
-use super::plan::{checked_output, chosen_clips, out_folder};
+use super::plan::{checked_output, chosen_clips, out_folder, plan};
 use super::{Format, Report, Request, said};
 use crate::disk::{Result, write_whole};
 use crate::project::{Clip, Lesson, Output};
@@ -131,6 +132,9 @@ pub fn write_wholes(
         }
         each(number, whole);
         let mut written = Written::default();
+        if whole.format.is_moving() {
+            workshop.film(whole, stop, &mut written)?;
+        }
         for file in workshop.make(whole, &mut written.notes)? {
             if std::fs::read(&file.path).is_ok_and(|old| old == file.bytes) {
                 written.report.kept += 1;
@@ -206,10 +210,20 @@ impl<'a> Workshop<'a> {
                 let text = layers::layered(&figure, preset, self.output.size, ground, &self.title(clip));
                 one("layers.svg", text.into_bytes())
             }
-            // Frames and times are the business of the jobs.
+            // Moving pictures are written as they are painted, frames and times by the jobs.
+            Format::Mp4 | Format::Webm | Format::Gif | Format::Apng => Vec::new(),
             Format::Svg | Format::Png | Format::TextGrid | Format::Srt | Format::Vtt | Format::Poses => Vec::new(),
         };
         Ok(files)
+    }
+
+    /// Writes a moving picture as it is painted.
+    fn film(&self, whole: &Whole, stop: &AtomicBool, written: &mut Written) -> Result<()> {
+        let Some(clip) = whole.clip.clone() else { return Ok(()) };
+        let one = Request { formats: vec![Format::Png], clip: Some(clip), ..self.request.clone() };
+        let jobs = plan(self.lesson, &one)?;
+        let (Some(job), Some(number)) = (jobs.first(), whole.clips.first()) else { return Ok(()) };
+        moving::moving(job, &self.lesson.clips[*number], whole.format, &whole.base, stop, written)
     }
 
     fn lottie(&self, clip: usize) -> Result<String> {
