@@ -22,8 +22,8 @@ pub struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     projects: Vec<PathBuf>,
-    /// The forms, with commas between them. Frames: svg, png. Whole: smil (an animated SVG), html (a page that plays
-    /// the lesson), epub, lottie, layers. Times: textgrid, srt, vtt, rhubarb, moho. And wav, ratios, lpr, poses, mouths.
+    /// The forms, with commas between them. Frames: svg, png. Moving: mp4, webm, gif, apng, smil (an animated SVG), lottie. Whole: html (a page that plays
+    /// the lesson), epub, layers. Times: textgrid, srt, vtt, rhubarb, moho. And wav, ratios, lpr, poses, mouths.
     #[arg(long = "to", value_name = "FORMAT", required = true, value_delimiter = ',')]
     formats: Vec<Format>,
     /// One clip; all of them where left out.
