@@ -11,16 +11,19 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::output_fault;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::export::{Format, FrameSet, Progress, Request, Shard, plan, run as run_jobs};
+use crate::export::{
+    Dedupe, Format, FrameSet, Progress, Request, Shard, Written, plan, run as run_jobs, wholes, write_wholes,
+};
 use crate::project::Lesson;
 
-/// Write lessons as frames and subtitles. Run again, it only writes what is missing or has changed.
+/// Write lessons as frames, subtitles, pages, books and what other programs read. Run again, it only writes what is missing or has changed.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     projects: Vec<PathBuf>,
-    /// The forms, with commas between them: svg, png, textgrid, srt, vtt, poses.
+    /// The forms, with commas between them. Frames: svg, png. Moving: mp4, webm, gif, apng, smil (an animated SVG), lottie. Whole: html (a page that plays
+    /// the lesson), epub, layers. Times: textgrid, srt, vtt, rhubarb, moho. And wav, ratios, lpr, poses, mouths.
     #[arg(long = "to", value_name = "FORMAT", required = true, value_delimiter = ',')]
     formats: Vec<Format>,
     /// One clip; all of them where left out.
@@ -48,6 +51,13 @@ pub struct Args {
     /// #rrggbb, white, black or transparent.
     #[arg(long, value_name = "COLOR")]
     background: Option<Colour>,
+    /// What is done about frames that are equal: link makes them one file under several names, copy copies, none makes
+    /// each by itself.
+    #[arg(long, value_name = "link|copy|none", default_value = "link", hide_default_value = true)]
+    dedupe: Dedupe,
+    /// Animated SVG with a group for every frame, as the thesis writes it; ten times as large.
+    #[arg(long)]
+    thesis: bool,
     /// Progress and result as lines of JSON.
     #[arg(long)]
     json: bool,
@@ -71,7 +81,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         size: args.size,
         fps: args.fps,
         background: args.background.map(|c| if c.a == 0 { None } else { Some(c) }),
+        dedupe: args.dedupe,
         jobs: args.jobs.into(),
+        thesis: args.thesis,
     };
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
@@ -155,8 +167,22 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
             eprintln!("{}", serde_json::json!({ "done": p.done, "of": p.of }));
         }
     };
-    let report = run_jobs(&jobs, request.jobs, &show, stop)?;
+    let mut report = run_jobs(&jobs, request.jobs, &show, stop)?;
     bar.finish_and_clear();
+    let whole = wholes(&lesson, request)?;
+    let mut tell = |_: usize, whole: &crate::export::Whole| {
+        let what =
+            whole.clip.as_ref().map_or_else(|| whole.format.name().into(), |c| format!("{c}, {}", whole.format.name()));
+        if args.json {
+            eprintln!("{}", serde_json::json!({ "making": whole.format.name(), "clip": whole.clip }));
+        } else if std::io::stderr().is_terminal() {
+            eprintln!("making {what} …");
+        }
+    };
+    let made = write_wholes(&lesson, request, &whole, &mut tell, stop)?;
+    report.stopped |= made.len() < whole.len();
+    tell_notes(&made);
+    report = report.with(&made);
     if report.stopped {
         return Err(
             Fault::new("the export was stopped before its end").help("run it again: it goes on where it stopped")
@@ -174,6 +200,12 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
             say(if args.json { line.to_string() } else { path.display().to_string() })?;
         }
     }
+    for (whole, written) in whole.iter().zip(&made) {
+        for path in &written.paths {
+            let line = serde_json::json!({ "project": project, "clip": whole.clip, "path": path });
+            say(if args.json { line.to_string() } else { path.display().to_string() })?;
+        }
+    }
     if args.json {
         let totals = serde_json::json!({ "project": project, "written": report.written, "kept": report.kept,
             "removed": report.removed, "bytes": report.bytes });
@@ -186,6 +218,17 @@ fn one(project: &Path, args: &Args, request: &Request, stop: &AtomicBool, out: &
     let files = if report.written == 1 { "file" } else { "files" };
     eprintln!("{} {files} written, {} already there{removed}", report.written, report.kept);
     Ok(())
+}
+
+/// Tells what there is to know of whole files, each thing once.
+fn tell_notes(made: &[Written]) {
+    let mut told: Vec<&String> = Vec::new();
+    for note in made.iter().flat_map(|w| &w.notes) {
+        if !told.contains(&note) {
+            eprintln!("note: {note}");
+            told.push(note);
+        }
+    }
 }
 
 /// Frames drawn from guessed times look as sure as any others, so it is said.

@@ -9,8 +9,10 @@ mod completions;
 mod convert;
 mod export;
 mod face;
+mod farm;
 mod frames_done;
 mod live;
+mod merge;
 mod new;
 mod play;
 mod plot;
@@ -47,6 +49,10 @@ enum Command {
     Check(check::Args),
     /// Write lessons as frames and subtitles.
     Export(export::Args),
+    /// Join the parts of an export that was divided among machines.
+    Merge(merge::Args),
+    /// Print the job that exports lessons on many machines.
+    Farm(farm::Args),
     /// Find the points of a face in its photo, for its cartoon.
     Face(face::Args),
     /// Learn a person's seven emotions from photos, for videos of that person.
@@ -115,6 +121,8 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::Align(args)) => align::run(args, out),
         Some(Command::Check(args)) => check::run(args, out),
         Some(Command::Export(args)) => export::run(args, out),
+        Some(Command::Merge(args)) => merge::run(args, out),
+        Some(Command::Farm(args)) => farm::run(args, out),
         Some(Command::Face(args)) => face::run(args, out),
         Some(Command::Calibrate(args)) => calibrate::run(args, out),
         Some(Command::Track(args)) => track::run(args, out),

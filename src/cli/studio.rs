@@ -55,6 +55,16 @@ fn run_export(request: ExportRequest, progress: &dyn Fn(Progress), stop: &Atomic
         }
         worker.join().unwrap_or_else(|_| Err(Fault::new("the export broke off")))
     });
+    let report = report.and_then(|report| {
+        let all = export::wholes(&lesson, &asked)?;
+        let mut tell = |number: usize, whole: &export::Whole| {
+            progress(Progress { done: number as u64, total: all.len() as u64, what: whole.format.name().into() });
+        };
+        let made = export::write_wholes(&lesson, &asked, &all, &mut tell, stop)?;
+        let mut report = report.with(&made);
+        report.stopped |= made.len() < all.len();
+        Ok(report)
+    });
     let report = report.map_err(|fault| {
         let help = format!("elsewhere: lianpu export {} --to {} --out DIR", request.project.display(), request.formats);
         Fault::new(fault.what()).help(help)

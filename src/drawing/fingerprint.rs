@@ -38,7 +38,9 @@ impl Sum {
 
     /// To a ten-thousandth, far below what can be seen and far above what mathematics libraries disagree on.
     fn number(&mut self, number: f64) {
-        self.word((number * 1e4).round() as i64 as u64);
+        // Rounded by hand: processors without an instruction for it call a function.
+        let scaled = number * 1e4;
+        self.word((scaled + 0.5_f64.copysign(scaled)) as i64 as u64);
     }
 
     fn point(&mut self, point: Point) {

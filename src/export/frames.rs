@@ -61,6 +61,30 @@ impl Shard {
     /// Everything.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
 
+    /// Whether it is the one that writes what is not divided.
+    #[must_use]
+    pub const fn is_first(self) -> bool {
+        self.index == 1
+    }
+
+    /// Part `index` of `count`; none where there is no such part.
+    #[must_use]
+    pub fn new(index: u32, count: u32) -> Option<Self> {
+        (1 <= index && index <= count).then_some(Self { index, count })
+    }
+
+    /// Which part, counted from 1.
+    #[must_use]
+    pub const fn index(self) -> u32 {
+        self.index
+    }
+
+    /// Of how many.
+    #[must_use]
+    pub const fn count(self) -> u32 {
+        self.count
+    }
+
     /// This shard's part of a list: neighbouring items, so that what repeats from frame to frame stays together.
     #[must_use]
     pub fn of<T: Copy>(self, list: &[T]) -> Vec<T> {

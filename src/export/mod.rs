@@ -1,12 +1,37 @@
-//! Lessons as files: frames and timings. It only reads a project, so any number of exports may run at once.
+//! Lessons as files: frames, timings, and whole lessons for the web, the reader and other programs. It only reads a project, so any number of exports may run at once.
 //!
 //! An export can be stopped at any moment and run again: what is there and still right is not written again.
 
+pub mod apng;
+mod captions;
+mod cels;
+mod divide;
+mod draft;
+mod farm;
+mod format;
 mod frames;
+pub mod gif;
+mod manifest;
+mod merge;
+pub mod movie;
+mod palette;
+mod parts;
 mod plan;
 mod poses;
+mod repeats;
 mod run;
+mod said;
+mod stream;
+mod whole;
 
+pub use divide::{Share, divide, shard_of_array};
+pub use farm::{Engine, Farm, MOST_TASKS};
+pub use format::Format;
 pub use frames::{FrameSet, Shard};
-pub use plan::{Format, Job, Request, plan};
+pub use manifest::{Asked, Entry, Manifest};
+pub use merge::{Merged, merge};
+pub use plan::{Job, Request, plan};
+pub use repeats::Dedupe;
 pub use run::{Progress, Report, run};
+pub use stream::{Frames, Outcome, Rate, Watch};
+pub use whole::{Whole, Written, wholes, write_wholes};

@@ -1,67 +1,14 @@
 //! What an export is asked to do, and the list of files that comes of it.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use super::{FrameSet, Shard, poses};
+use super::{Dedupe, Format, FrameSet, Shard, captions, poses, said};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::Figure;
 use crate::project::{Lesson, Output};
 use crate::timeline::Timeline;
 use crate::timing::Timing;
-
-/// A form that a clip is exported in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// One SVG file a frame.
-    Svg,
-    /// One PNG file a frame.
-    Png,
-    /// The times as a Praat TextGrid.
-    TextGrid,
-    /// The times as SubRip subtitles.
-    Srt,
-    /// The times as WebVTT subtitles.
-    Vtt,
-    /// A table of every frame's pose.
-    Poses,
-}
-
-impl Format {
-    /// All of them.
-    pub const ALL: [Self; 6] = [Self::Svg, Self::Png, Self::TextGrid, Self::Srt, Self::Vtt, Self::Poses];
-
-    /// Its name on the command line and in file names.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::TextGrid => "textgrid",
-            Self::Srt => "srt",
-            Self::Vtt => "vtt",
-            Self::Poses => "poses",
-        }
-    }
-
-    /// Whether it is one file a frame.
-    #[must_use]
-    pub const fn is_frames(self) -> bool {
-        matches!(self, Self::Svg | Self::Png)
-    }
-}
-
-impl FromStr for Format {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Self::ALL.into_iter().find(|f| f.name() == text).ok_or_else(|| {
-            let known: Vec<&str> = Self::ALL.iter().map(|f| f.name()).collect();
-            format!("`{text}` is no export format; formats: {}", known.join(", "))
-        })
-    }
-}
 
 /// What an export is asked to do.
 #[derive(Debug, Clone)]
@@ -84,8 +31,12 @@ pub struct Request {
     pub fps: Option<f64>,
     /// Instead of the figure's background; `Some(None)` is transparent.
     pub background: Option<Option<Colour>>,
+    /// What is done about frames that are equal.
+    pub dedupe: Dedupe,
     /// Threads; 0 for as many as there are processors.
     pub jobs: usize,
+    /// Animated SVG as the thesis writes it: a group a frame (thesis 7.3.2).
+    pub thesis: bool,
 }
 
 impl Request {
@@ -102,7 +53,9 @@ impl Request {
             size: None,
             fps: None,
             background: None,
+            dedupe: Dedupe::default(),
             jobs: 0,
+            thesis: false,
         }
     }
 }
@@ -126,6 +79,8 @@ pub struct Job {
     pub size: [u32; 2],
     /// Instead of the figure's background.
     pub background: Option<Option<Colour>>,
+    /// What is done about frames that are equal.
+    pub dedupe: Dedupe,
     /// Frame forms.
     pub formats: Vec<Format>,
     /// Whole files: where, and what is in them.
@@ -136,26 +91,52 @@ pub struct Job {
     pub figure: Figure,
 }
 
+impl Job {
+    /// The file of a frame.
+    #[must_use]
+    pub fn path_of(&self, frame: u32, format: Format) -> PathBuf {
+        self.folder.join(format!("{frame:06}.{}", format.name()))
+    }
+}
+
 /// Works out the jobs of an export, one a clip. Nothing is written yet.
 ///
 /// # Errors
 /// When a clip, figure, size or frame rate cannot be used.
 pub fn plan(lesson: &Lesson, request: &Request) -> Result<Vec<Job>> {
+    let output = checked_output(lesson, request)?;
+    let clips = chosen_clips(lesson, request)?;
+    let out = out_folder(lesson, request);
+    clips.into_iter().map(|clip| job(lesson, clip, request, &output, &out)).collect()
+}
+
+/// Size and frame rate: the manifest's, or those asked for.
+///
+/// # Errors
+/// When they cannot be.
+pub(super) fn checked_output(lesson: &Lesson, request: &Request) -> Result<Output> {
     let output = Output {
         fps: request.fps.unwrap_or(lesson.manifest.output.fps),
         size: request.size.unwrap_or(lesson.manifest.output.size),
     };
     crate::project::check_output(&output).map_err(Fault::of_the_call)?;
-    let clips = match &request.clip {
+    Ok(output)
+}
+
+/// The clips that are asked for, by number.
+///
+/// # Errors
+/// When there is none.
+pub(super) fn chosen_clips(lesson: &Lesson, request: &Request) -> Result<Vec<usize>> {
+    Ok(match &request.clip {
         Some(name) => vec![lesson.clip_named(Some(name)).map_err(Fault::of_the_call)?],
         None if lesson.clips.is_empty() => vec![lesson.clip_named(None)?],
         None => (0..lesson.clips.len()).collect(),
-    };
-    let out = out_folder(lesson, request);
-    clips.into_iter().map(|clip| job(lesson, clip, request, &output, &out)).collect()
+    })
 }
 
-fn out_folder(lesson: &Lesson, request: &Request) -> PathBuf {
+/// Where the files go.
+pub(super) fn out_folder(lesson: &Lesson, request: &Request) -> PathBuf {
     let project = || {
         let full = lesson.root.canonicalize().unwrap_or_else(|_| lesson.root.clone());
         full.file_name().map(PathBuf::from).unwrap_or_default()
@@ -178,27 +159,21 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
     }
     let frames = request.shard.of(&request.frames.of(count));
     let whole = request.frames.is_all() && request.shard == Shard::WHOLE;
-    let texts = request.formats.iter().filter_map(|format| {
-        let timing = match format {
-            Format::TextGrid => crate::timing::Format::TextGrid,
-            Format::Srt => crate::timing::Format::Srt,
-            Format::Vtt => crate::timing::Format::WebVtt,
-            Format::Poses => {
-                let path = out.join(format!("{}.poses.csv", clip.entry.name));
-                return Some((path, poses::to_csv(&timeline, &frames)));
+    let texts = request.formats.iter().filter(|f| f.is_text()).map(|format| {
+        let path = |ending: &str| out.join(format!("{}.{ending}", clip.entry.name));
+        // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
+        match format {
+            Format::TextGrid => {
+                let timing = crate::timing::Format::TextGrid;
+                (path(timing.extension()), crate::timing::write(&clip.timing, timing))
             }
-            Format::Svg | Format::Png => return None,
-        };
-        let path = out.join(format!("{}.{}", clip.entry.name, timing.extension()));
-        // Subtitles are for an audience, which reads phrases and no markup; the TextGrid is for people who edit times.
-        let text = match format {
-            Format::TextGrid => crate::timing::write(&clip.timing, timing),
-            _ => {
+            Format::Vtt => (path("vtt"), captions::vtt(&said::phrases(clip))),
+            Format::Srt => {
                 let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
-                crate::timing::write(&phrases, timing)
+                (path("srt"), crate::timing::write(&phrases, crate::timing::Format::Srt))
             }
-        };
-        Some((path, text))
+            _ => (path("poses.csv"), poses::to_csv(&timeline, &frames)),
+        }
     });
     let texts = texts.collect();
     Ok(Job {
@@ -210,6 +185,7 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
         count,
         size: output.size,
         background: request.background,
+        dedupe: request.dedupe,
         texts,
         formats: request.formats.iter().copied().filter(|f| f.is_frames()).collect(),
         timeline,

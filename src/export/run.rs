@@ -1,14 +1,16 @@
 //! Runs the jobs of an export: frames in parallel, each file whole or not at all.
 
 use std::path::Path;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
+use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Format, Job};
 use crate::disk::{Fault, Result, replace, write_whole};
 use crate::drawing::Drawing;
-use crate::render::{Painter, REVISION, decode_key, encode_png, to_svg};
+use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
 
 /// How far an export is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,23 +66,7 @@ pub fn run(jobs: &[Job], threads: usize, progress: &(dyn Fn(Progress) + Sync), s
         if job.whole {
             report.removed += remove_left_over(job);
         }
-        let [width, height] = job.size;
-        pool.install(|| {
-            job.frames.par_iter().try_for_each_init(
-                || Painter::new(width, height),
-                |painter, frame| {
-                    if stop.load(Ordering::Relaxed) {
-                        return Ok(());
-                    }
-                    match painter {
-                        Ok(painter) => write_frame(job, *frame, painter, &tally)?,
-                        Err(fault) => return Err(Fault::new(fault.what()).help(fault.next_step())),
-                    }
-                    tally.step(progress);
-                    Ok(())
-                },
-            )
-        })?;
+        pool.install(|| write_frames(job, &tally, progress, stop))?;
     }
     report.written += tally.written.load(Ordering::Relaxed);
     report.kept += tally.kept.load(Ordering::Relaxed);
@@ -122,36 +108,119 @@ fn elsewhere(fault: Fault) -> Fault {
     fault.help("choose another place with --out DIR")
 }
 
-/// The drawing of a frame, titled by lesson and time.
-fn drawing_of(job: &Job, frame: u32) -> Drawing {
-    let time = job.timeline.time_of(frame);
-    let mut drawing = job.figure.draw(&job.timeline.pose(time));
-    drawing.title = format!("{}, {time:.2} s", job.title);
-    if let Some(background) = job.background {
-        drawing.background = background;
+impl Job {
+    /// The drawing of a frame, titled by lesson and time. Its pose is rounded, by less than can be seen, so that equal
+    /// instants of a movement are equal frames.
+    #[must_use]
+    pub fn drawing(&self, frame: u32) -> Drawing {
+        let time = self.timeline.time_of(frame);
+        let mut drawing = self.figure.draw(&rounded(&self.timeline.pose(time)));
+        drawing.title = format!("{}, {time:.2} s", self.title);
+        if let Some(background) = self.background {
+            drawing.background = background;
+        }
+        drawing
     }
-    drawing
 }
 
-fn write_frame(job: &Job, frame: u32, painter: &mut Painter, tally: &Tally) -> Result<()> {
-    let drawing = drawing_of(job, frame);
-    let [width, height] = job.size;
-    for format in &job.formats {
-        let path = job.folder.join(format!("{frame:06}.{}", format.name()));
-        let old = std::fs::read(&path).ok();
-        match format {
-            Format::Svg => {
-                let svg = to_svg(&drawing, width, height).into_bytes();
-                tally.keep_or_write(&path, old.as_deref() == Some(&svg), || Ok(svg))?;
+/// Writes the frames of a job: each thread its own stretch, for neighbours have most in common.
+fn write_frames(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), stop: &AtomicBool) -> Result<()> {
+    let svg = job.formats.contains(&Format::Svg);
+    let png = job.formats.contains(&Format::Png);
+    let pose = |frame| rounded(&job.timeline.pose(job.timeline.time_of(frame)));
+    // An SVG says its time, so no two are equal.
+    let frames = match job.dedupe {
+        Dedupe::None => Repeats { first: job.frames.clone(), others: Vec::new() },
+        _ if svg => Repeats { first: job.frames.clone(), others: Vec::new() },
+        _ => Repeats::of(&job.frames, pose),
+    };
+    let clip = ClipOf { job, coder: OnceLock::new() };
+    let stretch = frames.first.len().div_ceil(rayon::current_num_threads()).max(1);
+    let keys: Vec<Vec<String>> = frames
+        .first
+        .par_chunks(stretch)
+        .map(|stretch| {
+            let mut coder = None;
+            let mut keys = Vec::with_capacity(stretch.len());
+            for frame in stretch {
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let drawing = job.drawing(*frame);
+                if svg {
+                    let path = job.path_of(*frame, Format::Svg);
+                    let text = to_svg(&drawing, job.size[0], job.size[1]).into_bytes();
+                    let right = std::fs::read(&path).is_ok_and(|old| old == text);
+                    tally.keep_or_write(&path, right, || Ok(text))?;
+                }
+                if png {
+                    let path = job.path_of(*frame, Format::Png);
+                    let key = key_of(&drawing, job.size);
+                    tally.keep_or_write(&path, has_key(&path, &key), || clip.encode(&mut coder, &drawing, &key))?;
+                    keys.push(key);
+                }
+                tally.step(progress);
             }
-            _ => {
-                let key = key_of(&drawing, job.size);
-                let right = old.as_deref().and_then(decode_key).as_deref() == Some(&key);
-                tally.keep_or_write(&path, right, || encode_png(&painter.paint(&drawing), &key))?;
-            }
-        }
+            Ok(keys)
+        })
+        .collect::<Result<_>>()?;
+    if stop.load(Ordering::Relaxed) {
+        return Ok(());
     }
-    Ok(())
+    let keys: Vec<String> = keys.into_iter().flatten().collect();
+    frames.others.par_iter().try_for_each(|(frame, like)| {
+        if stop.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        let path = job.path_of(*frame, Format::Png);
+        if has_key(&path, &keys[*like]) {
+            tally.kept.fetch_add(1, Ordering::Relaxed);
+        } else {
+            let bytes = repeat(&job.path_of(frames.first[*like], Format::Png), &path, job.dedupe).map_err(elsewhere)?;
+            tally.written.fetch_add(1, Ordering::Relaxed);
+            tally.bytes.fetch_add(bytes, Ordering::Relaxed);
+        }
+        tally.step(progress);
+        Ok(())
+    })
+}
+
+/// What the PNG files of a clip have in common, learned when the first of them is to be written.
+struct ClipOf<'a> {
+    job: &'a Job,
+    coder: OnceLock<Result<ClipCoder>>,
+}
+
+/// Frames of the clip, evenly over it, that the others are written after.
+const SAMPLES: u32 = 12;
+
+impl ClipOf<'_> {
+    /// The same samples whichever frames are asked for.
+    fn learn(&self) -> Result<ClipCoder> {
+        let last = self.job.count.saturating_sub(1);
+        let mut samples: Vec<u32> =
+            (0..SAMPLES).map(|i| (u64::from(last) * u64::from(i) / u64::from(SAMPLES - 1)) as u32).collect();
+        samples.dedup();
+        let drawings: Vec<Drawing> = samples.into_iter().map(|frame| self.job.drawing(frame)).collect();
+        let [width, height] = self.job.size;
+        ClipCoder::new(width, height, &drawings)
+    }
+
+    fn encode<'b>(&'b self, coder: &mut Option<FrameCoder<'b>>, drawing: &Drawing, key: &str) -> Result<Vec<u8>> {
+        let coder = match coder {
+            Some(coder) => coder,
+            None => match self.coder.get_or_init(|| self.learn()) {
+                Ok(clip) => coder.insert(clip.frames()?),
+                Err(fault) => return Err(Fault::new(fault.what()).help(fault.next_step())),
+            },
+        };
+        coder.encode(drawing, key)
+    }
+}
+
+/// Whether a file is a whole PNG with that key.
+fn has_key(path: &Path, key: &str) -> bool {
+    std::fs::read(path).is_ok_and(|old| decode_key(&old).as_deref() == Some(key))
 }
 
 /// Says what a PNG shows and what made it: the drawing, the size, and this version of the program and its renderer.

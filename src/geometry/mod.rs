@@ -13,7 +13,7 @@ pub use kurbo::{
     Shape, Vec2,
 };
 pub use polygon::{cut_corner, cut_corners, simplify};
-pub use ribbon::{Knot, Ribbon, outline};
+pub use ribbon::{Knot, Ribbon, outline, outline_in_pieces};
 pub use spline::{equal_steps, flattened, spline};
 
 /// The cubic that leaves `a` with derivative `da` and reaches `b` with derivative `db` over a unit of parameter.

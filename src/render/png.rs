@@ -6,6 +6,24 @@ use crate::disk::{Fault, Result};
 /// The keyword of the text chunk that carries the key.
 const KEYWORD: &[u8] = b"lianpu";
 
+/// What every PNG file starts with.
+pub(super) const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
+
+/// Appends a chunk with its length and checksum.
+pub(super) fn chunk(file: &mut Vec<u8>, kind: [u8; 4], data: &[u8]) {
+    file.extend_from_slice(&(data.len() as u32).to_be_bytes());
+    let start = file.len();
+    file.extend_from_slice(&kind);
+    file.extend_from_slice(data);
+    let sum = crc32fast::hash(&file[start..]);
+    file.extend_from_slice(&sum.to_be_bytes());
+}
+
+/// Appends the text chunk that carries a key.
+pub(super) fn text_chunk(file: &mut Vec<u8>, key: &str) {
+    chunk(file, *b"tEXt", &[KEYWORD, b"\0", key.as_bytes()].concat());
+}
+
 /// The PNG file of a picture: RGBA, each row told by its difference from the one above, which suits flat colours
 /// and costs a third of the other filters. `key` goes into a text chunk before the pixels.
 ///
@@ -34,7 +52,7 @@ pub fn encode_png(picture: &Picture, key: &str) -> Result<Vec<u8>> {
 /// The key of a PNG file that is whole: every chunk's checksum holds and the end is there. `None` for any other.
 #[must_use]
 pub fn decode_key(file: &[u8]) -> Option<String> {
-    let mut rest = file.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
+    let mut rest = file.strip_prefix(SIGNATURE)?;
     let mut key = None;
     loop {
         let length = u32::from_be_bytes(rest.get(..4)?.try_into().ok()?) as usize;

@@ -1,35 +1,73 @@
 //! Pictures of pixels inside drawings: painted with as many pixels as can be seen, or carried whole as a PNG.
 
-use tiny_skia::{FillRule, FilterQuality, IntSize, Paint, Pattern, Pixmap, PremultipliedColorU8, SpreadMode};
-
+use super::canvas::Pixel;
+use super::print::Print;
 use crate::drawing::Raster;
-use crate::geometry::{Affine, Shape};
+use crate::geometry::{Affine, Point};
 
-/// Paints the raster. Where it is drawn at half its size or smaller, whole blocks of its pixels are averaged first,
-/// so that nothing flickers or is skipped; between pixels it is bilinear.
-pub(super) fn paint(canvas: &mut Pixmap, raster: &Raster, place: Affine) {
-    let place = place * raster.place();
-    let [a, b, c, d, _, _] = place.as_coeffs();
-    let blocks = |scale: f64, side: usize| ((1.0 / scale.max(1e-6)) as usize).clamp(1, side);
-    let (across, down) = (blocks(a.hypot(b), raster.width()), blocks(c.hypot(d), raster.height()));
-    let Some(pixels) = averaged(raster, across, down) else { return };
-    // Blocks at the border may be cut, but all have one size in the plane.
-    let place_blocks = place * Affine::scale_non_uniform(across as f64, down as f64);
-    let [a, b, c, d, e, f] = place_blocks.as_coeffs().map(|v| v as f32);
-    let Some(path) = super::pixels::skia_path(&raster.bounds().to_path(0.1), place) else { return };
-    let transform = tiny_skia::Transform::from_row(a, b, c, d, e, f);
-    let paint = Paint {
-        shader: Pattern::new(pixels.as_ref(), SpreadMode::Pad, FilterQuality::Bilinear, 1.0, transform),
-        ..Paint::default()
-    };
-    canvas.fill_path(&path, &paint, FillRule::Winding, tiny_skia::Transform::identity(), None);
+/// Weights between pixels are told in so many parts.
+const PARTS: f64 = 256.0;
+
+/// The pixels of a raster, as many as can be seen, to be looked up from pixels of the picture.
+pub(super) struct Sampler {
+    pixels: Vec<Pixel>,
+    width: usize,
+    height: usize,
+    /// From the picture to the middles of `pixels`.
+    back: Affine,
+}
+
+impl Sampler {
+    /// Where the raster is drawn at half its size or smaller, whole blocks of its pixels are averaged first, so that
+    /// nothing flickers or is skipped. `None` where it has no area.
+    pub(super) fn new(raster: &Raster, place: Affine) -> Option<Self> {
+        let place = place * raster.place();
+        if !place.is_finite() || place.determinant().abs() < 1e-12 {
+            return None;
+        }
+        let [a, b, c, d, _, _] = place.as_coeffs();
+        let blocks = |scale: f64, side: usize| ((1.0 / scale.max(1e-6)) as usize).clamp(1, side);
+        let (across, down) = (blocks(a.hypot(b), raster.width()), blocks(c.hypot(d), raster.height()));
+        let pixels = averaged(raster, across, down);
+        // Blocks at the border may be cut, but all have one size in the plane.
+        let back = (place * Affine::scale_non_uniform(across as f64, down as f64)).inverse();
+        let (width, height) = (raster.width().div_ceil(across), raster.height().div_ceil(down));
+        Some(Self { pixels, width, height, back: Affine::translate((-0.5, -0.5)) * back })
+    }
+
+    /// Puts all that it shows into a print.
+    pub(super) fn print(&self, print: &mut Print) {
+        print.numbers(&self.back.as_coeffs());
+        print.word((self.width as u64) << 32 | self.height as u64);
+        for pair in self.pixels.chunks(2) {
+            print.word(pair.iter().fold(0, |word, p| word << 32 | u64::from(*p)));
+        }
+    }
+
+    /// What is seen at the middle of a pixel of the picture: between the four pixels round it, in proportion; the
+    /// border goes on outward.
+    pub(super) fn at(&self, x: i32, y: i32) -> Pixel {
+        let p = self.back * Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let split = |v: f64, side: usize| {
+            let v = (v.clamp(0.0, (side - 1) as f64) * PARTS + 0.5).floor() as usize;
+            let (whole, part) = (v / PARTS as usize, v % PARTS as usize);
+            (whole, (whole + 1).min(side - 1), part as u32)
+        };
+        let ((x0, x1, right), (y0, y1, below)) = (split(p.x, self.width), split(p.y, self.height));
+        let at = |x: usize, y: usize| self.pixels[y * self.width + x].to_le_bytes();
+        let [a, b, c, d] = [at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)];
+        let (left, above) = (256 - right, 256 - below);
+        u32::from_le_bytes(std::array::from_fn(|k| {
+            let [a, b, c, d] = [a, b, c, d].map(|p| u32::from(p[k]));
+            ((a * left * above + b * right * above + c * left * below + d * right * below + (1 << 15)) >> 16) as u8
+        }))
+    }
 }
 
 /// The raster with `across` × `down` of its pixels averaged to one, premultiplied.
-fn averaged(raster: &Raster, across: usize, down: usize) -> Option<Pixmap> {
+fn averaged(raster: &Raster, across: usize, down: usize) -> Vec<Pixel> {
     let (width, height) = (raster.width().div_ceil(across), raster.height().div_ceil(down));
-    let size = IntSize::from_wh(u32::try_from(width).ok()?, u32::try_from(height).ok()?)?;
-    let mut bytes = Vec::with_capacity(width * height * 4);
+    let mut pixels = Vec::with_capacity(width * height);
     for rows in raster.rgba().chunks(raster.width() * 4 * down) {
         let mut sums = vec![[0_u64; 4]; width];
         let rows_here = rows.len() / (raster.width() * 4);
@@ -45,13 +83,11 @@ fn averaged(raster: &Raster, across: usize, down: usize) -> Option<Pixmap> {
         for (x, sum) in sums.iter().enumerate() {
             let count = (rows_here * across.min(raster.width() - x * across)) as u64;
             let alpha = ((sum[3] + count / 2) / count).min(255) as u8;
-            let channel = |k: usize| (((2 * sum[k] + count * 255) / (2 * count * 255)) as u8).min(alpha);
-            let [r, g, b] = [0, 1, 2].map(channel);
-            let pixel = PremultipliedColorU8::from_rgba(r, g, b, alpha).unwrap_or(PremultipliedColorU8::TRANSPARENT);
-            bytes.extend([pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]);
+            let channel = |k: usize| (((2 * sum[k] + count * 255) / (2 * count * 255)).min(255) as u8).min(alpha);
+            pixels.push(u32::from_le_bytes([channel(0), channel(1), channel(2), alpha]));
         }
     }
-    Pixmap::from_vec(bytes, size)
+    pixels
 }
 
 /// The raster as a `data:` address of a PNG; RGB where it is opaque, which is a third smaller.
@@ -142,8 +178,9 @@ mod tests {
     fn what_is_transparent_does_not_colour_what_is_averaged() {
         let pixel = |i: usize| if i.is_multiple_of(2) { [255, 0, 0, 255] } else { [0, 255, 0, 0] };
         let raster = Raster::new("", 8, 8, (0..64).flat_map(pixel).collect::<Vec<u8>>());
-        let small = averaged(&raster, 2, 2).unwrap();
-        assert!(small.pixels().iter().all(|p| p.green() == 0 && p.red().abs_diff(128) <= 1 && p.red() == p.alpha()));
+        let small = averaged(&raster, 2, 2);
+        let mean = |p: &Pixel| matches!(p.to_le_bytes(), [r, 0, _, a] if r.abs_diff(128) <= 1 && r == a);
+        assert!(small.iter().all(mean));
     }
 
     #[test]

@@ -1,0 +1,36 @@
+//! `lianpu merge`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::output_fault;
+use crate::disk::Result;
+use crate::export::merge;
+
+/// Join the parts of an export that was divided, and check that nothing is missing or damaged.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The folder that the parts were exported into.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// The result as a line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Joins the parts and prints where the manifest of the whole is.
+///
+/// # Errors
+/// With what is missing or differs, and the part to be run again.
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let merged = merge(&args.folder)?;
+    if args.json {
+        let line = serde_json::json!({ "path": merged.path, "parts": merged.parts, "files": merged.files,
+            "bytes": merged.bytes });
+        return writeln!(out, "{line}").map_err(output_fault);
+    }
+    writeln!(out, "{}", merged.path.display()).map_err(output_fault)?;
+    let parts = if merged.parts == 1 { "1 part".to_owned() } else { format!("{} parts", merged.parts) };
+    eprintln!("{parts}, {} files, all there and as they were written", merged.files);
+    Ok(())
+}

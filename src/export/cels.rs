@@ -1,0 +1,136 @@
+//! What changes from frame to frame: a moving picture as a first picture and the rectangles that are laid over it.
+
+use super::stream::{Frames, Outcome, Watch};
+use crate::disk::{Fault, Result};
+
+/// A rectangle of whole pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Area {
+    pub(super) x: u32,
+    pub(super) y: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
+}
+
+impl Area {
+    pub(super) const fn whole(size: [u32; 2]) -> Self {
+        Self { x: 0, y: 0, width: size[0], height: size[1] }
+    }
+
+    /// The smallest area that holds both.
+    pub(super) fn union(self, other: Self) -> Self {
+        let (x, y) = (self.x.min(other.x), self.y.min(other.y));
+        let right = (self.x + self.width).max(other.x + other.width);
+        let bottom = (self.y + self.height).max(other.y + other.height);
+        Self { x, y, width: right - x, height: bottom - y }
+    }
+
+    /// Where its rows lie in a picture of this width with `depth` bytes a pixel.
+    pub(super) fn rows(self, width: u32, depth: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
+        let (width, length) = (width as usize * depth, self.width as usize * depth);
+        (self.y..self.y + self.height).map(move |y| {
+            let start = y as usize * width + self.x as usize * depth;
+            start..start + length
+        })
+    }
+}
+
+/// The smallest area outside which two pictures of `depth` bytes a pixel are equal; none where they are equal.
+pub(super) fn changed(old: &[u8], new: &[u8], size: [u32; 2], depth: usize) -> Option<Area> {
+    let stride = size[0] as usize * depth;
+    let rows = || old.chunks_exact(stride).zip(new.chunks_exact(stride));
+    let top = rows().position(|(a, b)| a != b)?;
+    let bottom = rows().rposition(|(a, b)| a != b)?;
+    let (mut left, mut right) = (stride, 0);
+    for (a, b) in rows().skip(top).take(bottom + 1 - top) {
+        // Only what lies outside the columns that are known can still move them.
+        if let Some(at) = a[..left].iter().zip(&b[..left]).position(|(a, b)| a != b) {
+            left = at;
+        }
+        if let Some(at) = a[right..].iter().zip(&b[right..]).rposition(|(a, b)| a != b) {
+            right += at + 1;
+        }
+    }
+    let (left, right) = (left / depth, right.div_ceil(depth));
+    Some(Area { x: left as u32, y: top as u32, width: (right - left) as u32, height: (bottom + 1 - top) as u32 })
+}
+
+/// One rectangle and how long it is the newest one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cel {
+    /// The first frame that shows it.
+    pub(super) from: u32,
+    /// The first that does not.
+    pub(super) until: u32,
+    /// What has changed.
+    pub(super) area: Area,
+}
+
+/// Goes through the frames and hands each cel on with the whole picture it belongs to (straight RGBA). `soonest` says
+/// when the next cel may begin after one that began at a frame: formats have times too short for them.
+pub(super) fn each(
+    frames: &mut dyn Frames,
+    watch: &Watch<'_>,
+    soonest: impl Fn(u32) -> u32,
+    mut write: impl FnMut(Cel, &[u8]) -> Result<()>,
+) -> Result<Outcome> {
+    let (size, count) = (frames.size(), frames.count());
+    if count == 0 || size[0] == 0 || size[1] == 0 {
+        return Err(Fault::new("there are no frames to be shown").help("give the clip a recording, times or keys"));
+    }
+    let mut shown = whole(frames, 0, size)?.to_vec();
+    let mut cel = Cel { from: 0, until: count, area: Area::whole(size) };
+    (watch.progress)(1);
+    for n in 1..count {
+        if watch.is_stopped() {
+            return Ok(Outcome::Stopped);
+        }
+        let next = whole(frames, n, size)?;
+        if let Some(area) = changed(&shown, next, size, 4) {
+            if n < soonest(cel.from) {
+                // Too short to be shown: the newer picture takes its place.
+                cel.area = cel.area.union(area);
+            } else {
+                write(Cel { until: n, ..cel }, &shown)?;
+                cel = Cel { from: n, until: count, area };
+            }
+            for row in area.rows(size[0], 4) {
+                shown[row.clone()].copy_from_slice(&next[row]);
+            }
+        }
+        (watch.progress)(n + 1);
+    }
+    write(cel, &shown)?;
+    Ok(Outcome::Written(0))
+}
+
+/// The pixels of a frame, which must have the size that was said.
+pub(super) fn whole(frames: &mut dyn Frames, n: u32, size: [u32; 2]) -> Result<&[u8]> {
+    let picture = frames.at(n)?;
+    let length = size[0] as usize * size[1] as usize * 4;
+    if picture.rgba.len() == length {
+        Ok(&picture.rgba)
+    } else {
+        Err(Fault::new(format!("frame {n} has another size than the others")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_changed_area_is_the_smallest(points in prop::collection::vec((0_u32..9, 0_u32..7), 0..5)) {
+            let size = [9, 7];
+            let old = vec![5_u8; 9 * 7 * 4];
+            let mut new = old.clone();
+            for (x, y) in &points {
+                new[(y * 9 + x) as usize * 4 + (x + y) as usize % 4] = 6;
+            }
+            let expected = points.iter().map(|(x, y)| Area { x: *x, y: *y, width: 1, height: 1 }).reduce(Area::union);
+            prop_assert_eq!(changed(&old, &new, size, 4), expected);
+        }
+    }
+}

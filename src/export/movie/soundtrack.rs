@@ -1,0 +1,102 @@
+//! Sound and captions of the frames that are shown: cut where frames are left out, so that both keep to the picture.
+
+use std::io::BufWriter;
+use std::path::Path;
+
+use hound::{SampleFormat, WavSpec, WavWriter};
+use tempfile::NamedTempFile;
+
+use crate::disk::Result;
+use crate::export::draft::{beside, write_fault};
+use crate::export::stream::Rate;
+use crate::speech::Sound;
+use crate::timing::{Interval, Tier};
+
+/// Samples a second of the sound in a video: what AAC and Opus both take as it is.
+pub(super) const SAMPLE_RATE: u32 = 48_000;
+
+/// Runs of neighbouring frames, as (first, one beyond the last).
+pub(super) fn runs(shown: &[u32]) -> Vec<(u32, u32)> {
+    let mut runs: Vec<(u32, u32)> = Vec::new();
+    for frame in shown {
+        match runs.last_mut() {
+            Some(run) if run.1 == *frame => run.1 += 1,
+            _ => runs.push((*frame, frame + 1)),
+        }
+    }
+    runs
+}
+
+/// The sound of the runs as a WAV file that is gone when dropped: as long as the picture to a sample, silent where the
+/// recording has ended.
+pub(super) fn sound_file(place: &Path, sound: &Sound, runs: &[(u32, u32)], rate: Rate) -> Result<NamedTempFile> {
+    let file = beside(place, ".wav")?;
+    let spec = WavSpec { channels: 1, sample_rate: SAMPLE_RATE, bits_per_sample: 16, sample_format: SampleFormat::Int };
+    let written = (|| {
+        let mut wav = WavWriter::new(BufWriter::new(file.as_file()), spec)?;
+        let samples = sound.resampled(SAMPLE_RATE);
+        for (from, until) in runs {
+            let [from, until] = [from, until].map(|n| rate.in_parts(*n, SAMPLE_RATE.into()) as usize);
+            for at in from..until {
+                let sample = samples.get(at).copied().unwrap_or_default();
+                wav.write_sample((sample.clamp(-1.0, 1.0) * 32_767.0).round() as i16)?;
+            }
+        }
+        wav.finalize()
+    })();
+    match written {
+        Ok(()) => Ok(file),
+        Err(hound::Error::IoError(e)) => Err(write_fault(place, e)),
+        Err(e) => Err(write_fault(place, std::io::Error::other(e))),
+    }
+}
+
+/// The captions of the runs, in the time of the video.
+pub(super) fn captions_of(tier: &Tier, runs: &[(u32, u32)], rate: Rate) -> Tier {
+    let mut cut = Tier::new(tier.name.clone());
+    let mut before = 0.0;
+    for (from, until) in runs {
+        let [from, until] = [from, until].map(|n| rate.time_of(*n));
+        for said in tier.spoken() {
+            let (start, end) = (said.start.max(from), said.end.min(until));
+            // What only touches the run is not worth a caption.
+            if end - start > 0.04 {
+                cut.intervals.push(Interval::new(start - from + before, end - from + before, &said.label));
+            }
+        }
+        before += until - from;
+    }
+    cut
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sound_and_captions_follow_the_frames_that_are_shown() {
+        let rate = Rate::new(25.0).unwrap();
+        let runs = runs(&[0, 1, 2, 3, 4, 50, 51, 52, 53, 54]);
+        assert_eq!(runs, [(0, 5), (50, 55)]);
+        let sound = Sound::new(SAMPLE_RATE, (0..SAMPLE_RATE * 2 + 4800).map(|i| i as f32 / 2e5).collect());
+        let folder = tempfile::tempdir().unwrap();
+        let file = sound_file(&folder.path().join("a.mp4"), &sound, &runs, rate).unwrap();
+        let read: Vec<i16> = hound::WavReader::open(file.path()).unwrap().samples().map(Result::unwrap).collect();
+        assert_eq!(read.len(), 2 * 9600);
+        let at = |i: u32| (f64::from(i) / 2e5 * 32_767.0).round() as i16;
+        assert_eq!([read[0], read[9599], read[9600]], [0, at(9599), at(96_000)]);
+        // The recording ends half way through the last run.
+        assert_eq!([read[9600 + 4799], read[9600 + 4800], read[19_199]], [at(100_799), 0, 0]);
+
+        let mut tier = Tier::new("phrases");
+        for (start, end, label) in [(0.1, 0.3, "a"), (1.0, 1.5, "b"), (1.9, 2.1, "c"), (2.18, 3.0, "d")] {
+            tier.intervals.push(Interval::new(start, end, label));
+        }
+        let cut = captions_of(&tier, &runs, rate);
+        let found: Vec<_> = cut.intervals.iter().map(|i| (i.label.as_str(), i.start, i.end)).collect();
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found[0].0 == "a" && near(found[0].1, 0.1) && near(found[0].2, 0.2));
+        assert!(found[1].0 == "c" && near(found[1].1, 0.2) && near(found[1].2, 0.3));
+    }
+}

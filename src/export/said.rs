@@ -1,0 +1,124 @@
+//! What a clip says as it is shown while it is said: phrases of pieces, each with its reading and its time.
+
+use crate::project::Clip;
+use crate::script::{self, Lang, Pause, Syllable};
+use crate::timing::Interval;
+
+/// Marks that belong to what follows them.
+const OPENING: &str = "“‘「『《〈（([【〔";
+
+/// What is read in one breath, and shown on one line.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Phrase {
+    /// Seconds.
+    pub start: f64,
+    /// Seconds.
+    pub end: f64,
+    /// Which sentence of the clip it belongs to, from 0.
+    pub sentence: u32,
+    /// Whether a new line begins after it in the script.
+    pub ends_line: bool,
+    /// In order.
+    pub pieces: Vec<Piece>,
+}
+
+/// What is lit at once: a syllable, or a number or word of several that are written as one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Piece {
+    /// Opening marks before it.
+    pub before: String,
+    /// How it is written.
+    pub text: String,
+    /// Marks and blanks after it.
+    pub after: String,
+    /// Pinyin with tone marks; empty where it is no Mandarin or its reading is not known.
+    pub pinyin: String,
+    /// Zhuyin; empty as Pinyin is.
+    pub zhuyin: String,
+    /// Whether it is English.
+    pub english: bool,
+    /// Seconds.
+    pub start: f64,
+    /// Seconds.
+    pub end: f64,
+}
+
+impl Phrase {
+    /// All that is written, on one line.
+    pub fn text(&self) -> String {
+        let all: String = self.pieces.iter().map(|p| format!("{}{}{}", p.before, p.text, p.after)).collect();
+        all.trim().to_owned()
+    }
+}
+
+/// The phrases of a clip; none where it has no script.
+pub(super) fn phrases(clip: &Clip) -> Vec<Phrase> {
+    let starts: Vec<f64> = clip.phrases().intervals.iter().map(|i| i.start).collect();
+    let said: Vec<(&Syllable, &Interval)> = clip.syllables.iter().zip(clip.intervals()).collect();
+    let mut phrases: Vec<Phrase> = Vec::new();
+    let (mut sentence, mut next_start) = (0, 0);
+    let mut before = clip.script.get(..said.first().map_or(0, |s| s.0.span.start)).map(opening).unwrap_or_default();
+    let mut at = 0;
+    while let Some((first, interval)) = said.get(at).copied() {
+        // The syllables of a number share its place in the script.
+        let count = said[at..].iter().take_while(|s| s.0.span == first.span).count().max(1);
+        let own = &said[at..at + count];
+        let last = own.last().copied().unwrap_or((first, interval));
+        at += count;
+        let next = said.get(at).map_or(clip.script.len(), |s| s.0.span.start);
+        let between = clip.script.get(last.0.span.end..next).unwrap_or_default();
+        let (after, ahead) = parted(between);
+        let readings = |read: &dyn Fn(&Syllable) -> String| {
+            let all: Vec<String> = own.iter().map(|s| read(s.0)).filter(|r| !r.is_empty()).collect();
+            all.join(" ")
+        };
+        let written = clip.script.get(first.span.clone()).map(script::without_braces).unwrap_or_default();
+        let piece = Piece {
+            before: std::mem::replace(&mut before, ahead),
+            text: if written.is_empty() { first.text.clone() } else { written },
+            after,
+            pinyin: readings(&|s| script::with_marks(&s.pinyin)),
+            zhuyin: readings(&|s| s.zhuyin.clone()),
+            english: first.lang == Lang::En,
+            start: interval.start,
+            end: last.1.end.max(interval.start),
+        };
+        let begins = starts.get(next_start).is_some_and(|s| piece.start >= s - 1e-9);
+        if begins || phrases.is_empty() {
+            next_start = starts.partition_point(|s| *s <= piece.start + 1e-9);
+            phrases.push(Phrase { start: piece.start, end: piece.end, sentence, ends_line: false, pieces: Vec::new() });
+        }
+        if let Some(phrase) = phrases.last_mut() {
+            phrase.end = piece.end;
+            phrase.ends_line = between.contains('\n') && at < said.len();
+            phrase.pieces.push(piece);
+        }
+        if last.0.pause_after == Pause::Sentence {
+            sentence += 1;
+        }
+    }
+    phrases
+}
+
+/// What stands between two pieces: what belongs to the first, and what to the second.
+fn parted(between: &str) -> (String, String) {
+    let plain = plain(between);
+    let cut = plain.trim_end_matches(|c| OPENING.contains(c)).len();
+    let (after, ahead) = plain.split_at(cut);
+    (after.to_owned(), ahead.to_owned())
+}
+
+fn opening(text: &str) -> String {
+    parted(text).1
+}
+
+/// Without readings in braces, blanks in a row as one.
+fn plain(text: &str) -> String {
+    let bare = script::without_braces(text);
+    let blank = |c: Option<char>| c.is_some_and(char::is_whitespace);
+    let (first, last) = (blank(text.chars().next()), blank(text.chars().next_back()));
+    match (first, last, bare.is_empty()) {
+        (_, _, true) if first => " ".to_owned(),
+        (a, b, _) => format!("{}{bare}{}", if a { " " } else { "" }, if b { " " } else { "" }),
+    }
+}

@@ -1,0 +1,383 @@
+//! The forms that hold a clip or a lesson whole, as one file or a few: which files there will be, and writing each of them
+//! whole or not at all. What is there and still right is kept.
+
+mod base64;
+mod epub;
+mod flac;
+mod html;
+mod layers;
+mod lottie;
+mod mouths;
+mod moving;
+mod packed;
+mod ratios;
+mod shapes;
+mod smil;
+mod sound;
+mod svg_marks;
+mod zip;
+
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::parts::{self, Grid, Parts};
+use super::plan::{checked_output, chosen_clips, out_folder, plan};
+use super::{Format, Report, Request, said};
+use crate::disk::{Result, write_whole};
+use crate::project::{Clip, Lesson, Output};
+use crate::script::System;
+use crate::timing::MOHO_FPS;
+use sound::Encoded;
+
+/// Files that hold a clip or a lesson in one form, to be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Whole {
+    /// The form.
+    pub format: Format,
+    /// The clip; none where the lesson's clips are in it together.
+    pub clip: Option<String>,
+    /// The path without what the form adds to it, such as `OUT/CLIP`.
+    base: PathBuf,
+    /// The clips that are in it, by number.
+    clips: Vec<usize>,
+}
+
+/// What became of a [`Whole`].
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Its files.
+    pub paths: Vec<PathBuf>,
+    /// What the author should know, a line each.
+    pub notes: Vec<String>,
+    /// How many files were written and kept, and how many bytes.
+    pub report: Report,
+}
+
+impl Report {
+    /// The same with whole files counted in.
+    #[must_use]
+    pub fn with(mut self, made: &[Written]) -> Self {
+        for written in made {
+            self.written += written.report.written;
+            self.kept += written.report.kept;
+            self.bytes += written.report.bytes;
+        }
+        self
+    }
+}
+
+/// A file that is ready.
+struct File {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+/// The whole files of an export, clip by clip and then the lesson's. Nothing is written yet.
+///
+/// Of an export in shards the first one writes them. `--frames` has no say in them.
+///
+/// # Errors
+/// When the clip that is asked for is not there, or size or frame rate cannot be used.
+pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
+    checked_output(lesson, request)?;
+    let clips = chosen_clips(lesson, request)?;
+    if !request.shard.is_first() {
+        return Ok(Vec::new());
+    }
+    let out = out_folder(lesson, request);
+    let wanted = |format: &&Format| !format.is_frames() && !format.is_text();
+    let formats: Vec<Format> = request.formats.iter().filter(wanted).copied().collect();
+    let mut all = Vec::new();
+    for number in &clips {
+        let name = &lesson.clips[*number].entry.name;
+        // A clip that is asked for by name has a page and a book of its own.
+        let own = |format: &&Format| !format.is_of_the_lesson() || request.clip.is_some();
+        all.extend(formats.iter().filter(own).map(|format| Whole {
+            format: *format,
+            clip: Some(name.clone()),
+            base: out.join(name),
+            clips: vec![*number],
+        }));
+    }
+    if request.clip.is_none() {
+        let together = formats.iter().filter(|f| f.is_of_the_lesson());
+        all.extend(together.map(|format| Whole {
+            format: *format,
+            clip: None,
+            base: out.join("lesson"),
+            clips: clips.clone(),
+        }));
+    }
+    Ok(all)
+}
+
+/// Writes whole files one after the other; `each` is told before each of them, with its number from 0. `stop` ends it
+/// between two.
+///
+/// # Errors
+/// When a figure cannot be used or a file cannot be written. Every file that is there is whole.
+pub fn write_wholes(
+    lesson: &Lesson,
+    request: &Request,
+    wholes: &[Whole],
+    each: &mut dyn FnMut(usize, &Whole),
+    stop: &AtomicBool,
+) -> Result<Vec<Written>> {
+    let mut workshop = Workshop::new(lesson, request)?;
+    let mut done = Vec::new();
+    for (number, whole) in wholes.iter().enumerate() {
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+        each(number, whole);
+        let mut written = Written::default();
+        if whole.format.is_moving() {
+            workshop.film(whole, stop, &mut written)?;
+        }
+        for file in workshop.make(whole, &mut written.notes)? {
+            if std::fs::read(&file.path).is_ok_and(|old| old == file.bytes) {
+                written.report.kept += 1;
+            } else {
+                write_whole(&file.path, &file.bytes).map_err(|f| f.help("choose another place with --out DIR"))?;
+                written.report.written += 1;
+                written.report.bytes += file.bytes.len() as u64;
+            }
+            written.paths.push(file.path);
+        }
+        done.push(written);
+    }
+    Ok(done)
+}
+
+/// What several forms of one clip have in common, made once.
+struct Workshop<'a> {
+    lesson: &'a Lesson,
+    request: &'a Request,
+    output: Output,
+    encoder: Option<PathBuf>,
+    parts: Option<(usize, Rc<Parts>)>,
+    sounds: Vec<(usize, Rc<Encoded>)>,
+}
+
+impl<'a> Workshop<'a> {
+    fn new(lesson: &'a Lesson, request: &'a Request) -> Result<Self> {
+        let output = checked_output(lesson, request)?;
+        Ok(Self { lesson, request, output, encoder: sound::encoder(), parts: None, sounds: Vec::new() })
+    }
+
+    fn make(&mut self, whole: &Whole, notes: &mut Vec<String>) -> Result<Vec<File>> {
+        let Some(first) = whole.clips.first().copied() else { return Ok(Vec::new()) };
+        let lesson = self.lesson;
+        let clip = &lesson.clips[first];
+        let base = whole.base.as_path();
+        let one = |ending: &str, bytes: Vec<u8>| vec![File { path: with_ending(base, ending), bytes }];
+        let files = match whole.format {
+            Format::Smil => {
+                let sound = self.sound(first, notes)?;
+                let parts = self.parts(first)?;
+                let title = self.title(clip);
+                let words = smil::Words { title: &title, description: &self.description(clip) };
+                let text = if self.request.thesis {
+                    smil::of_the_thesis(&parts, &words, sound.as_deref())
+                } else {
+                    smil::animated(&parts, &words, sound.as_deref())
+                };
+                one("svg", text.into_bytes())
+            }
+            Format::Html => one("html", self.page(&whole.clips, notes)?.into_bytes()),
+            Format::Epub => one("epub", self.book(&whole.clips, notes)?),
+            Format::Wav => match &clip.sound {
+                Some(sound) => one("wav", sound::wav(sound)?),
+                None => {
+                    notes.push(format!("the clip {} has no sound", clip.entry.name));
+                    Vec::new()
+                }
+            },
+            Format::Rhubarb => shapes::rhubarb(&self.shapes(first, notes), base),
+            Format::Moho => shapes::moho(self.shapes(first, notes), self.request.fps.unwrap_or(MOHO_FPS), base),
+            Format::Ratios => ratios::tables(clip, &lesson.timeline(first, Some(self.output.fps)), base),
+            Format::Lpr => ratios::compact(clip, &lesson.timeline(first, Some(self.output.fps)), base)?,
+            Format::Lottie => one("json", self.lottie(first)?.into_bytes()),
+            Format::Mouths => {
+                let figure = lesson.figure_of(&clip.entry)?;
+                let preset = lesson.mouths_of(&clip.entry);
+                mouths::mouths(&figure, preset, self.output.size, self.request.background, base)?
+            }
+            Format::Layers => {
+                let figure = lesson.figure_of(&clip.entry)?;
+                let (preset, ground) = (lesson.mouths_of(&clip.entry), self.request.background);
+                let text = layers::layered(&figure, preset, self.output.size, ground, &self.title(clip));
+                one("layers.svg", text.into_bytes())
+            }
+            // Moving pictures are written as they are painted, frames and times by the jobs.
+            Format::Mp4 | Format::Webm | Format::Gif | Format::Apng => Vec::new(),
+            Format::Svg | Format::Png | Format::TextGrid | Format::Srt | Format::Vtt | Format::Poses => Vec::new(),
+        };
+        Ok(files)
+    }
+
+    /// Writes a moving picture as it is painted.
+    fn film(&self, whole: &Whole, stop: &AtomicBool, written: &mut Written) -> Result<()> {
+        let Some(clip) = whole.clip.clone() else { return Ok(()) };
+        let one = Request { formats: vec![Format::Png], clip: Some(clip), ..self.request.clone() };
+        let jobs = plan(self.lesson, &one)?;
+        let (Some(job), Some(number)) = (jobs.first(), whole.clips.first()) else { return Ok(()) };
+        moving::moving(job, &self.lesson.clips[*number], whole.format, &whole.base, stop, written)
+    }
+
+    fn lottie(&self, clip: usize) -> Result<String> {
+        let own = &self.lesson.clips[clip];
+        let figure = self.lesson.figure_of(&own.entry)?;
+        let timeline = self.lesson.timeline(clip, Some(self.output.fps));
+        let first = figure.draw(&timeline.pose(0.0));
+        let grid = Grid::new(first.view, self.output.size);
+        let survey = parts::survey(&figure, parts::poses(&timeline), &grid, lottie::ONE_LOOK);
+        let frames = survey.frames;
+        let (items, moves) = survey.done();
+        Ok(lottie::lottie(&lottie::Film {
+            title: &self.title(own),
+            grid,
+            fps: self.output.fps,
+            background: self.request.background.unwrap_or(first.background),
+            items: &items,
+            moves: &moves,
+            frames,
+        }))
+    }
+
+    /// The page of some clips.
+    fn page(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<String> {
+        let lesson = self.lesson;
+        let mut page = html::Page::default();
+        for number in clips {
+            let clip = &lesson.clips[*number];
+            let sound = self.sound(*number, notes)?;
+            let parts = self.parts(*number)?;
+            page.add(&html::Shown {
+                name: &clip.entry.name,
+                description: self.description(clip),
+                duration: clip.duration(),
+                parts: &parts,
+                sound: sound.as_deref(),
+                phrases: said::phrases(clip),
+            });
+        }
+        Ok(page.done(&lesson.manifest.title))
+    }
+
+    /// The book of some clips.
+    fn book(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<Vec<u8>> {
+        let lesson = self.lesson;
+        let mut chapters = Vec::new();
+        for number in clips {
+            let clip = &lesson.clips[*number];
+            let sound = self.sound_of_a_book(*number, notes)?;
+            let parts = self.parts(*number)?;
+            let (title, description) = (self.title(clip), self.description(clip));
+            let words = smil::Words { title: &title, description: &description };
+            let mut first = lesson.figure_of(&clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
+            first.background = self.request.background.unwrap_or(first.background);
+            chapters.push(epub::Chapter {
+                svg: smil::animated(&parts, &words, None),
+                poster: epub::poster(&first, self.output.size)?,
+                title: if lesson.clips.len() > 1 { clip.entry.name.clone() } else { title },
+                description,
+                duration: clip.duration(),
+                sound,
+                phrases: said::phrases(clip),
+                zhuyin: clip.entry.script_system == Some(System::Zhuyin),
+                size: self.output.size,
+            });
+        }
+        let figure = match clips.first() {
+            Some(first) => lesson.figure_of(&lesson.clips[*first].entry)?,
+            None => return Ok(Vec::new()),
+        };
+        epub::book(&lesson.manifest.title, &figure, &chapters)
+    }
+
+    /// A sound that readers of books must know: MP3 or AAC. Where no encoder is there, the recording itself may be such.
+    fn sound_of_a_book(&mut self, clip: usize, notes: &mut Vec<String>) -> Result<Option<Encoded>> {
+        let Some(sound) = self.sound(clip, &mut Vec::new())? else { return Ok(None) };
+        if sound.is_for_books() {
+            return Ok(Some((*sound).clone()));
+        }
+        let own = self.lesson.clips[clip].sound_path.as_deref().and_then(sound::own);
+        if own.is_none() {
+            notes.push("there is no `ffmpeg`, and books take no FLAC: the book has no sound".to_owned());
+        }
+        Ok(own)
+    }
+
+    /// The clip's figure in parts.
+    fn parts(&mut self, clip: usize) -> Result<Rc<Parts>> {
+        if let Some((_, parts)) = self.parts.as_ref().filter(|(number, _)| *number == clip) {
+            return Ok(Rc::clone(parts));
+        }
+        let figure = self.lesson.figure_of(&self.lesson.clips[clip].entry)?;
+        let timeline = self.lesson.timeline(clip, Some(self.output.fps));
+        let parts = Rc::new(parts::parts(&figure, &timeline, self.output.size, self.request.background));
+        self.parts = Some((clip, Rc::clone(&parts)));
+        Ok(parts)
+    }
+
+    /// The clip's sound as small as it gets here; none where it has none.
+    fn sound(&mut self, clip: usize, notes: &mut Vec<String>) -> Result<Option<Rc<Encoded>>> {
+        if let Some((_, sound)) = self.sounds.iter().find(|(number, _)| *number == clip) {
+            return Ok(Some(Rc::clone(sound)));
+        }
+        let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
+        let (encoded, note) = sound::encoded(sound, self.encoder.as_deref());
+        let encoded = Rc::new(encoded);
+        notes.extend(note);
+        self.sounds.push((clip, Rc::clone(&encoded)));
+        Ok(Some(encoded))
+    }
+
+    fn shapes(&self, clip: usize, notes: &mut Vec<String>) -> crate::timing::Timing {
+        let own = &self.lesson.clips[clip];
+        let timing = shapes::shapes(own, self.output.fps, self.lesson.mouths_of(&own.entry));
+        if timing.shapes().is_none_or(|t| t.intervals.is_empty()) {
+            notes.push(format!("the clip {} says nothing, so its mouth rests all the time", own.entry.name));
+        }
+        timing
+    }
+
+    /// What a clip is called: by the lesson, and by its own name where there are several.
+    fn title(&self, clip: &Clip) -> String {
+        let title = &self.lesson.manifest.title;
+        if self.lesson.clips.len() > 1 { format!("{title}: {}", clip.entry.name) } else { title.clone() }
+    }
+
+    /// What is said, for those who cannot see or hear it.
+    fn description(&self, clip: &Clip) -> String {
+        let said: Vec<String> = said::phrases(clip).iter().map(said::Phrase::text).collect();
+        if said.is_empty() { "A face moves.".to_owned() } else { format!("A face says: {}", said.join(" ")) }
+    }
+}
+
+/// `OUT/CLIP` with an ending; a clip's name may hold points of its own.
+fn with_ending(base: &Path, ending: &str) -> PathBuf {
+    let mut name = base.file_name().unwrap_or_default().to_owned();
+    name.push(".");
+    name.push(ending);
+    base.with_file_name(name)
+}
+
+/// Text safe inside elements and quoted attributes of XML and HTML.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML has no other control characters.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => {}
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,118 @@
+//! A clip's sound as a file: WAV always, and small where an encoder is there.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::disk::{Fault, Result};
+use crate::speech::Sound;
+
+/// Bits a second of what is encoded: speech through one channel is clean from here on.
+const BITS: &str = "48k";
+
+/// Samples a second of what is encoded, at most: speech has nothing above half of them.
+const RATE: u32 = 24_000;
+
+/// A sound ready to be put into a file.
+#[derive(Debug, Clone)]
+pub(super) struct Encoded {
+    /// What it is, for browsers.
+    pub mime: &'static str,
+    /// The ending of its name.
+    pub extension: &'static str,
+    /// The file.
+    pub bytes: Vec<u8>,
+}
+
+impl Encoded {
+    /// Whether every reader of books plays it.
+    pub fn is_for_books(&self) -> bool {
+        matches!(self.extension, "mp3" | "m4a")
+    }
+}
+
+/// A recording as it came, where it is MP3 or AAC.
+pub(super) fn own(path: &Path) -> Option<Encoded> {
+    let (mime, extension) = match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "mp3" => ("audio/mpeg", "mp3"),
+        "m4a" => ("audio/mp4", "m4a"),
+        _ => return None,
+    };
+    Some(Encoded { mime, extension, bytes: std::fs::read(path).ok()? })
+}
+
+/// The WAV file of a sound: 16 bits, one channel, its own rate.
+///
+/// # Errors
+/// When it is too long for a WAV file.
+pub(super) fn wav(sound: &Sound) -> Result<Vec<u8>> {
+    let spec = hound::WavSpec {
+        channels: 1,
+        sample_rate: sound.rate,
+        bits_per_sample: 16,
+        sample_format: hound::SampleFormat::Int,
+    };
+    let mut bytes = Cursor::new(Vec::with_capacity(44 + 2 * sound.samples.len()));
+    let written = (|| {
+        let mut writer = hound::WavWriter::new(&mut bytes, spec)?;
+        for sample in whole(sound) {
+            writer.write_sample(sample)?;
+        }
+        writer.finalize()
+    })();
+    written.map_err(|e| Fault::new(format!("the sound cannot be written as WAV: {e}")))?;
+    Ok(bytes.into_inner())
+}
+
+/// Samples of 16 bits: what was read from such goes back to the same.
+fn whole(sound: &Sound) -> impl Iterator<Item = i16> + '_ {
+    sound.samples.iter().map(|s| (f64::from(*s) * 32_768.0).round().clamp(-32_768.0, 32_767.0) as i16)
+}
+
+/// The encoder that is there: `ffmpeg` on the path.
+pub(super) fn encoder() -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    let name = if cfg!(windows) { "ffmpeg.exe" } else { "ffmpeg" };
+    std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
+}
+
+/// The sound as MP3, which every browser and reading system plays; as FLAC, which is larger, where there is no encoder
+/// or it fails, and then why, in a line.
+pub(super) fn encoded(sound: &Sound, encoder: Option<&Path>) -> (Encoded, Option<String>) {
+    let why = match encoder.map(|program| mp3(sound, program)) {
+        Some(Ok(bytes)) => return (Encoded { mime: "audio/mpeg", extension: "mp3", bytes }, None),
+        Some(Err(fault)) => fault.what().to_owned(),
+        None => "there is no `ffmpeg`".to_owned(),
+    };
+    let samples: Vec<i16> = whole(sound).collect();
+    let bytes = super::flac::flac(&samples, sound.rate);
+    let note = format!("{why}; the sound is written as FLAC, which is larger than MP3");
+    (Encoded { mime: "audio/flac", extension: "flac", bytes }, Some(note))
+}
+
+/// Through files, because the length that makes a player exact stands at the beginning of an MP3 and is known at its
+/// end.
+fn mp3(sound: &Sound, program: &Path) -> Result<Vec<u8>> {
+    let folder = tempfile::tempdir().map_err(|e| Fault::new(format!("no temporary folder: {e}")))?;
+    let (from, to) = (folder.path().join("sound.wav"), folder.path().join("sound.mp3"));
+    std::fs::write(&from, wav(sound)?).map_err(|e| Fault::io("cannot write it", &from, e))?;
+    let rate = sound.rate.min(RATE).to_string();
+    let ran = Command::new(program)
+        .args(["-nostdin", "-v", "error", "-y", "-i"])
+        .arg(&from)
+        .args(["-map_metadata", "-1", "-ac", "1", "-ar", &rate, "-c:a", "libmp3lame", "-b:a", BITS])
+        // The same bytes whenever the same program encodes the same sound.
+        .args(["-fflags", "+bitexact", "-flags:a", "+bitexact", "-id3v2_version", "0", "-threads", "1", "-f", "mp3"])
+        .arg(&to)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .output()
+        .map_err(|e| Fault::io("cannot run it", program, e))?;
+    let said = String::from_utf8_lossy(&ran.stderr);
+    let why = said.lines().next().map_or_else(|| ran.status.to_string(), str::to_owned);
+    let failed = || Fault::new(format!("ffmpeg failed: {why}"));
+    if !ran.status.success() {
+        return Err(failed());
+    }
+    std::fs::read(&to).ok().filter(|bytes| !bytes.is_empty()).ok_or_else(failed)
+}

@@ -1,0 +1,242 @@
+//! The frames of a clip as PNG files, put together from pieces.
+//!
+//! A row of tiles is a stretch of compressed data that stands by itself. What stays the same in a clip is compressed
+//! once, as well as can be; what moves is told tile by tile in the codes of one table, which is made from a few frames
+//! of the clip. Which those are is fixed, so a frame has the same bytes whichever frames are written, in which order, and
+//! by how many threads.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use miniz_oxide::deflate::core::{CompressorOxide, TDEFLFlush, compress_to_output, create_comp_flags_from_zip_params};
+
+use super::adler::Sum;
+use super::canvas::{Area, Canvas};
+use super::huffman::Bits;
+use super::piece::{Piece, count, filtered, splice};
+use super::pixels::Plan;
+use super::png::{SIGNATURE, chunk, text_chunk};
+use super::print::Print;
+use super::recent::Recent;
+use super::tiles::TILE;
+use super::tokens::{Counts, Table};
+use super::{Painter, encode_png};
+use crate::disk::Result;
+use crate::drawing::Drawing;
+
+/// Bytes of pieces, and of whole bands, that a thread keeps.
+const KEPT: usize = 3 << 20;
+
+/// What shrinks to less than this part of its size is no photo.
+const PHOTO: usize = 4;
+
+/// What the frames of a clip have in common: bands that stay the same, and codes for what does not.
+pub struct ClipCoder {
+    size: (u32, u32),
+    channels: usize,
+    table: Table,
+    still: HashMap<Print, Arc<Band>>,
+    /// From the signature to where a frame's key goes.
+    head: Vec<u8>,
+}
+
+/// A row of tiles as an `IDAT` chunk.
+struct Band {
+    chunk: Vec<u8>,
+    sum: Sum,
+}
+
+/// Writes frames of a clip. Every thread has its own.
+pub struct FrameCoder<'a> {
+    clip: &'a ClipCoder,
+    painter: Painter,
+    pieces: Recent<Piece>,
+    bands: Recent<Band>,
+    bits: Bits,
+    data: Vec<u8>,
+}
+
+impl ClipCoder {
+    /// Learns from some frames of a clip, which must always be the same ones.
+    ///
+    /// # Errors
+    /// When the size is none that can be painted.
+    pub fn new(width: u32, height: u32, samples: &[Drawing]) -> Result<Self> {
+        let mut painter = Painter::new(width, height)?;
+        let mut seen: HashMap<Print, u32> = HashMap::new();
+        let mut channels = 3;
+        for drawing in samples {
+            let plan = painter.plan(drawing);
+            band_prints(&plan, painter.grid().columns).for_each(|print| *seen.entry(print).or_default() += 1);
+            if !plan.is_opaque() {
+                channels = 4;
+            }
+        }
+        let mut counts = Counts::new();
+        let mut still = HashMap::new();
+        for drawing in samples {
+            let plan = painter.plan(drawing);
+            painter.refresh(&plan, |_| true);
+            for (row, print) in band_prints(&plan, painter.grid().columns).enumerate() {
+                let area = band_area(row, (width, height));
+                if seen[&print] > 1 || samples.len() == 1 {
+                    let band = || Arc::new(Band::best(painter.canvas(), area, channels));
+                    still.entry(print).or_insert_with(band);
+                } else {
+                    count(painter.canvas(), area, channels, &mut counts);
+                }
+            }
+        }
+        Ok(Self {
+            size: (width, height),
+            channels,
+            table: Table::new(&counts, channels),
+            still,
+            head: head((width, height), channels),
+        })
+    }
+
+    /// Something to write its frames with.
+    ///
+    /// # Errors
+    /// As for [`ClipCoder::new`].
+    pub fn frames(&self) -> Result<FrameCoder<'_>> {
+        let painter = Painter::new(self.size.0, self.size.1)?;
+        Ok(FrameCoder {
+            clip: self,
+            painter,
+            pieces: Recent::new(KEPT),
+            bands: Recent::new(KEPT),
+            bits: Bits::default(),
+            data: Vec::new(),
+        })
+    }
+}
+
+impl FrameCoder<'_> {
+    /// The PNG file of a drawing: RGB where nothing lets through what is behind it, else RGBA. `key` goes into a text
+    /// chunk before the pixels.
+    ///
+    /// # Errors
+    /// When it cannot be encoded.
+    pub fn encode(&mut self, drawing: &Drawing, key: &str) -> Result<Vec<u8>> {
+        let Self { clip, painter, pieces, bands, bits, data } = self;
+        let plan = painter.plan(drawing);
+        if clip.channels == 3 && !plan.is_opaque() {
+            // None of the samples was like this one.
+            return encode_png(&painter.paint(drawing), key);
+        }
+        let columns = painter.grid().columns;
+        let prints: Vec<Print> = band_prints(&plan, columns).collect();
+        let mut found: Vec<Option<Arc<Band>>> =
+            prints.iter().map(|print| clip.still.get(print).cloned().or_else(|| bands.get(print))).collect();
+        let mut ready: Vec<Option<Arc<Piece>>> = vec![None; plan.prints.len()];
+        for (tile, piece) in ready.iter_mut().enumerate().filter(|(tile, _)| found[tile / columns].is_none()) {
+            *piece = pieces.get(&plan.prints[tile]);
+        }
+        let missing = |tile: usize| found[tile / columns].is_none() && ready[tile].is_none();
+        painter.refresh(&plan, missing);
+        let (grid, canvas) = (painter.grid(), painter.canvas());
+        for row in 0..grid.rows {
+            if found[row].is_some() {
+                continue;
+            }
+            let tiles = row * columns..(row + 1) * columns;
+            for tile in tiles.clone().filter(|tile| ready[*tile].is_none()).collect::<Vec<_>>() {
+                // Tiles that look alike, such as empty ones, are told once.
+                let print = plan.prints[tile];
+                let piece = pieces.get(&print).unwrap_or_else(|| {
+                    let piece = Arc::new(Piece::new(canvas, grid.tile(tile), clip.channels, &clip.table, bits));
+                    pieces.put(print, Arc::clone(&piece), piece.size());
+                    piece
+                });
+                ready[tile] = Some(piece);
+            }
+            let high = band_area(row, clip.size).height();
+            let pieces_of_row: Vec<&Piece> = ready[tiles].iter().flatten().map(Arc::as_ref).collect();
+            let sum = splice(&pieces_of_row, high, &clip.table, bits);
+            data.clear();
+            bits.drain_into(data);
+            let band = Arc::new(Band::new(data, sum));
+            bands.put(prints[row], Arc::clone(&band), band.chunk.len() + size_of::<Band>());
+            found[row] = Some(band);
+        }
+        let all = || found.iter().flatten();
+        let size = all().map(|b| b.chunk.len()).sum::<usize>();
+        let mut file = Vec::with_capacity(clip.head.len() + key.len() + size + 128);
+        file.extend_from_slice(&clip.head);
+        if !key.is_empty() {
+            text_chunk(&mut file, key);
+        }
+        // The two bytes of zlib: a window of 32 kB, compressed fast.
+        chunk(&mut file, *b"IDAT", &[0x78, 0x01]);
+        all().for_each(|band| file.extend_from_slice(&band.chunk));
+        let sum = all().fold(Sum::default(), |sum, band| sum.then(band.sum));
+        // An empty block ends it.
+        let [a, b, c, d] = sum.value().to_be_bytes();
+        chunk(&mut file, *b"IDAT", &[3, 0, a, b, c, d]);
+        chunk(&mut file, *b"IEND", &[]);
+        Ok(file)
+    }
+}
+
+impl Band {
+    fn new(data: &[u8], sum: Sum) -> Self {
+        let mut all = Vec::with_capacity(data.len() + 12);
+        chunk(&mut all, *b"IDAT", data);
+        Self { chunk: all, sum }
+    }
+
+    /// A band compressed as well as can be.
+    fn best(canvas: &Canvas, area: Area, channels: usize) -> Self {
+        let told = |differences| {
+            let bytes = filtered(canvas, area, channels, differences);
+            (deflated(&bytes), bytes)
+        };
+        // Flat colours are told best as they are; a photo, which does not shrink much so, by differences.
+        let (mut out, mut bytes) = told(false);
+        if out.len() > bytes.len() / PHOTO {
+            let by_differences = told(true);
+            if by_differences.0.len() < out.len() {
+                (out, bytes) = by_differences;
+            }
+        }
+        Self::new(&out, Sum::of(&bytes))
+    }
+}
+
+/// Compressed as well as can be, up to a whole byte from which anything can go on.
+fn deflated(bytes: &[u8]) -> Vec<u8> {
+    // Level 9, without the header and sum of zlib.
+    let mut deflate = CompressorOxide::new(create_comp_flags_from_zip_params(9, -15, 0));
+    let mut out = Vec::with_capacity(bytes.len() / 8 + 1024);
+    compress_to_output(&mut deflate, bytes, TDEFLFlush::Full, |some| {
+        out.extend_from_slice(some);
+        true
+    });
+    out
+}
+
+fn band_area(row: usize, (width, height): (u32, u32)) -> Area {
+    let y0 = row as i32 * TILE.1;
+    Area { x0: 0, y0, x1: width as i32, y1: (y0 + TILE.1).min(height as i32) }
+}
+
+/// What is on every row of tiles.
+fn band_prints(plan: &Plan, columns: usize) -> impl Iterator<Item = Print> {
+    plan.prints.chunks(columns).map(|tiles| {
+        let mut print = Print::START;
+        tiles.iter().for_each(|tile| print.print(*tile));
+        print
+    })
+}
+
+/// The start of every file: its signature, size and colours.
+fn head((width, height): (u32, u32), channels: usize) -> Vec<u8> {
+    let mut head = SIGNATURE.to_vec();
+    let mut body = [width.to_be_bytes(), height.to_be_bytes()].concat();
+    body.extend_from_slice(&[8, if channels == 3 { 2 } else { 6 }, 0, 0, 0]);
+    chunk(&mut head, *b"IHDR", &body);
+    chunk(&mut head, *b"sRGB", &[0]);
+    head
+}
