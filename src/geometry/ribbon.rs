@@ -116,15 +116,23 @@ impl Ribbon {
         Pen { at: knot.point(), tangent: velocity / speed, radius: knot.w.max(0.0) / 2.0, flare }
     }
 
-    /// Whether both sides of the envelope run forward all the way, so that it can be fitted.
-    fn is_regular(&self) -> bool {
+    /// Stretches of the parameter, and whether both sides of the envelope run forward on each, so that it can be fitted.
+    fn stretches(&self) -> Vec<(f64, f64, bool)> {
         const STEPS: usize = 32;
-        let pens: [Pen; STEPS + 1] = std::array::from_fn(|i| self.pen(i as f64 / STEPS as f64));
-        pens.windows(2).all(|w| {
+        let at = |i: usize| i as f64 / STEPS as f64;
+        let pens: [Pen; STEPS + 1] = std::array::from_fn(|i| self.pen(at(i)));
+        let mut all: Vec<(f64, f64, bool)> = Vec::with_capacity(4);
+        for (i, w) in pens.windows(2).enumerate() {
             let ahead = w[0].tangent + w[1].tangent;
             let forward = |side| (w[1].contact(side) - w[0].contact(side)).dot(ahead) > 0.0;
-            w[0].flare.abs() < 0.9 && w[0].tangent.dot(w[1].tangent) > 0.7 && forward(1.0) && forward(-1.0)
-        })
+            let slow = w[0].flare.abs().max(w[1].flare.abs()) < 0.9;
+            let regular = slow && w[0].tangent.dot(w[1].tangent) > 0.7 && forward(1.0) && forward(-1.0);
+            match all.last_mut() {
+                Some((_, to, same)) if *same == regular => *to = at(i + 1),
+                _ => all.push((at(i), at(i + 1), regular)),
+            }
+        }
+        all
     }
 }
 
@@ -132,11 +140,13 @@ impl Ribbon {
 struct Side<'a> {
     ribbon: &'a Ribbon,
     side: f64,
+    from: f64,
+    to: f64,
 }
 
 impl Side<'_> {
     fn at(&self, t: f64) -> Point {
-        self.ribbon.pen(t).contact(self.side)
+        self.ribbon.pen(super::lerp(self.from, self.to, t)).contact(self.side)
     }
 
     /// The contact point's derivative needs third derivatives of the stroke; a central difference is as exact as
@@ -171,19 +181,21 @@ pub fn outline(chain: &[Ribbon], tolerance: f64) -> BezPath {
         if ribbon.0.iter().all(|k| k.w <= 0.0) {
             continue;
         }
-        if ribbon.is_regular() {
-            fitted(ribbon, tolerance, &mut path);
-        } else {
-            united_hulls(ribbon, tolerance, &mut path);
+        for (from, to, regular) in ribbon.stretches() {
+            if regular {
+                fitted(ribbon, from, to, tolerance, &mut path);
+            } else {
+                united_hulls(ribbon, from, to, tolerance, &mut path);
+            }
         }
     }
     path
 }
 
-fn fitted(ribbon: &Ribbon, tolerance: f64, path: &mut BezPath) {
-    let left = fit_to_bezpath(&Side { ribbon, side: 1.0 }, tolerance);
-    let right = fit_to_bezpath(&Side { ribbon, side: -1.0 }, tolerance).reverse_subpaths();
-    let (start, end) = (ribbon.pen(0.0), ribbon.pen(1.0));
+fn fitted(ribbon: &Ribbon, from: f64, to: f64, tolerance: f64, path: &mut BezPath) {
+    let side = |side| fit_to_bezpath(&Side { ribbon, side, from, to }, tolerance);
+    let (left, right) = (side(1.0), side(-1.0).reverse_subpaths());
+    let (start, end) = (ribbon.pen(from), ribbon.pen(to));
     path.extend(left.elements().iter().copied());
     cap(path, &end, end.contact(1.0), end.contact(-1.0));
     path.extend(right.elements().iter().skip(1).copied());
@@ -217,10 +229,10 @@ fn arc(path: &mut BezPath, centre: Point, from: Vec2, to: Vec2) {
 }
 
 /// Unites the convex hulls of neighbouring discs: for cusps, loops and pens wider than the bend.
-fn united_hulls(ribbon: &Ribbon, tolerance: f64, path: &mut BezPath) {
-    let mut parameters = vec![0.0];
-    divide(ribbon, 0.0, 0.5, 0, tolerance, &mut parameters);
-    divide(ribbon, 0.5, 1.0, 0, tolerance, &mut parameters);
+fn united_hulls(ribbon: &Ribbon, from: f64, to: f64, tolerance: f64, path: &mut BezPath) {
+    let (middle, mut parameters) = (f64::midpoint(from, to), vec![from]);
+    divide(ribbon, from, middle, 0, tolerance, &mut parameters);
+    divide(ribbon, middle, to, 0, tolerance, &mut parameters);
     for pair in parameters.windows(2) {
         let (mut a, mut b) = (ribbon.pen(pair[0]), ribbon.pen(pair[1]));
         let along = b.at - a.at;
@@ -272,7 +284,7 @@ pub fn outline_in_pieces(chain: &[Ribbon], pieces: usize) -> BezPath {
     let step = 1.0 / pieces as f64;
     for ribbon in chain {
         let side = |side: f64| -> Vec<(Point, Vec2)> {
-            let side = Side { ribbon, side };
+            let side = Side { ribbon, side, from: 0.0, to: 1.0 };
             let at = |i: usize| (side.at(i as f64 * step), side.derivative(i as f64 * step) * (step / 3.0));
             (0..=pieces).map(at).collect()
         };
