@@ -13,13 +13,18 @@ const SIDE: f64 = 150.0;
 const SCALE: f64 = 4.0;
 const PIXELS: usize = 600;
 
+/// The truth is looked at so much more closely, for how near a rim is says how much of a pixel is covered only roughly.
+const FINER: usize = 3;
+const FINE: usize = FINER * PIXELS;
+
 /// How much of each pixel the discs cover: 0 to 1.
 fn discs(chain: &[Ribbon]) -> Vec<f32> {
+    const SCALE: f64 = self::SCALE * FINER as f64;
     // The distance to the nearest rim, negative inside; more than a pixel away it does not matter.
-    let mut depth = vec![1.0_f32; PIXELS * PIXELS];
+    let mut depth = vec![1.0_f32; FINE * FINE];
     for ribbon in chain {
         let ends: f64 = ribbon.0.windows(2).map(|k| (k[1].point() - k[0].point()).hypot()).sum();
-        let steps = (ends * SCALE * 3.0).ceil().max(300.0) as usize;
+        let steps = (ends * SCALE).ceil().max(300.0) as usize;
         for i in 0..=steps {
             let knot = ribbon.eval(i as f64 / steps as f64);
             if knot.w > 0.0 {
@@ -27,16 +32,20 @@ fn discs(chain: &[Ribbon]) -> Vec<f32> {
             }
         }
     }
-    depth.iter().map(|d| (0.5 - d).clamp(0.0, 1.0)).collect()
+    let mut mean = vec![0.0; PIXELS * PIXELS];
+    for (i, d) in depth.iter().enumerate() {
+        mean[i / FINE / FINER * PIXELS + i % FINE / FINER] += (0.5 - d).clamp(0.0, 1.0) / (FINER * FINER) as f32;
+    }
+    mean
 }
 
 fn disc(depth: &mut [f32], [x, y]: [f64; 2], radius: f64) {
-    let within = |v: f64| v.clamp(0.0, PIXELS as f64) as usize;
-    for row in within(y - radius - 1.0)..within(y + radius + 2.0).min(PIXELS) {
+    let within = |v: f64| v.clamp(0.0, FINE as f64) as usize;
+    for row in within(y - radius - 1.0)..within(y + radius + 2.0).min(FINE) {
         let up = row as f64 + 0.5 - y;
         let half = |r: f64| (r * r - up * up).max(0.0).sqrt();
         let (outer, inner) = (half(radius + 1.0), if radius > 1.0 { half(radius - 1.0) } else { 0.0 });
-        let line = &mut depth[row * PIXELS..(row + 1) * PIXELS];
+        let line = &mut depth[row * FINE..(row + 1) * FINE];
         let (from, to) = (within(x - outer - 0.5), within(x + outer + 0.5));
         let (full_from, full_to) = (within((x - inner + 0.5).ceil()), within((x + inner - 0.5).floor()));
         let mut rim = |range: std::ops::Range<usize>| {

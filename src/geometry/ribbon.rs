@@ -6,7 +6,9 @@
 //! cubics; where the pen is too wide for the curve's bend it folds, and convex hulls of neighbouring discs are
 //! united instead, which holds for any input.
 
-use kurbo::{BezPath, CurveFitSample, ParamCurveFit, PathEl, Point, Vec2, fit_to_bezpath};
+use kurbo::{
+    BezPath, CurveFitSample, ParamCurve, ParamCurveFit, ParamCurveNearest, PathEl, Point, Vec2, fit_to_bezpath,
+};
 
 /// One control point: a place and the width of the stroke there (paper eq. 4).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -116,15 +118,23 @@ impl Ribbon {
         Pen { at: knot.point(), tangent: velocity / speed, radius: knot.w.max(0.0) / 2.0, flare }
     }
 
-    /// Whether both sides of the envelope run forward all the way, so that it can be fitted.
-    fn is_regular(&self) -> bool {
+    /// Stretches of the parameter, and whether both sides of the envelope run forward on each, so that it can be fitted.
+    fn stretches(&self) -> Vec<(f64, f64, bool)> {
         const STEPS: usize = 32;
-        let pens: [Pen; STEPS + 1] = std::array::from_fn(|i| self.pen(i as f64 / STEPS as f64));
-        pens.windows(2).all(|w| {
+        let at = |i: usize| i as f64 / STEPS as f64;
+        let pens: [Pen; STEPS + 1] = std::array::from_fn(|i| self.pen(at(i)));
+        let mut all: Vec<(f64, f64, bool)> = Vec::with_capacity(4);
+        for (i, w) in pens.windows(2).enumerate() {
             let ahead = w[0].tangent + w[1].tangent;
             let forward = |side| (w[1].contact(side) - w[0].contact(side)).dot(ahead) > 0.0;
-            w[0].flare.abs() < 0.9 && w[0].tangent.dot(w[1].tangent) > 0.7 && forward(1.0) && forward(-1.0)
-        })
+            let slow = w[0].flare.abs().max(w[1].flare.abs()) < 0.9;
+            let regular = slow && w[0].tangent.dot(w[1].tangent) > 0.7 && forward(1.0) && forward(-1.0);
+            match all.last_mut() {
+                Some((_, to, same)) if *same == regular => *to = at(i + 1),
+                _ => all.push((at(i), at(i + 1), regular)),
+            }
+        }
+        all
     }
 }
 
@@ -132,11 +142,13 @@ impl Ribbon {
 struct Side<'a> {
     ribbon: &'a Ribbon,
     side: f64,
+    from: f64,
+    to: f64,
 }
 
 impl Side<'_> {
     fn at(&self, t: f64) -> Point {
-        self.ribbon.pen(t).contact(self.side)
+        self.ribbon.pen(super::lerp(self.from, self.to, t)).contact(self.side)
     }
 
     /// The contact point's derivative needs third derivatives of the stroke; a central difference is as exact as
@@ -145,6 +157,39 @@ impl Side<'_> {
         const H: f64 = 1e-5;
         let (a, b) = ((t - H).max(0.0), (t + H).min(1.0));
         (self.at(b) - self.at(a)) / (b - a)
+    }
+}
+
+/// Pieces of a side that cannot be fitted.
+const FINE: usize = 32;
+
+impl Side<'_> {
+    /// Whether a path stays near the curve: now and then a fit bulges where the curve nearly has a cusp.
+    fn is_followed_by(&self, path: &BezPath, tolerance: f64) -> bool {
+        let line: [Point; 65] = std::array::from_fn(|i| self.at(i as f64 / 64.0));
+        let longest = line.windows(2).map(|w| (w[1] - w[0]).hypot2()).fold(0.0, f64::max).sqrt();
+        let most = 4.0 * tolerance + 0.05 * longest;
+        let near = |p: Point| {
+            line.windows(2).any(|w| kurbo::Line::new(w[0], w[1]).nearest(p, 1e-3).distance_sq <= most * most)
+        };
+        path.segments().all(|piece| [0.25, 0.5, 0.75].into_iter().all(|t| near(piece.eval(t))))
+    }
+
+    /// The curve as so many cubics between equal steps of its parameter.
+    fn in_pieces(&self, pieces: usize) -> BezPath {
+        let step = 1.0 / pieces as f64;
+        let at = |i: usize| (self.at(i as f64 * step), self.derivative(i as f64 * step) * (step / 3.0));
+        let points: Vec<(Point, Vec2)> = (0..=pieces).map(at).collect();
+        let mut path = BezPath::new();
+        path.move_to(points[0].0);
+        for pair in points.windows(2) {
+            let ((a, da), (b, db)) = (pair[0], pair[1]);
+            // A fold has derivatives without end: no handle is longer than its piece.
+            let most = (b - a).hypot();
+            let held = |v: Vec2| v * (most / v.hypot().max(1e-12)).min(1.0);
+            path.curve_to(a + held(da), b - held(db), b);
+        }
+        path
     }
 }
 
@@ -171,19 +216,25 @@ pub fn outline(chain: &[Ribbon], tolerance: f64) -> BezPath {
         if ribbon.0.iter().all(|k| k.w <= 0.0) {
             continue;
         }
-        if ribbon.is_regular() {
-            fitted(ribbon, tolerance, &mut path);
-        } else {
-            united_hulls(ribbon, tolerance, &mut path);
+        for (from, to, regular) in ribbon.stretches() {
+            if regular {
+                fitted(ribbon, from, to, tolerance, &mut path);
+            } else {
+                united_hulls(ribbon, from, to, tolerance, &mut path);
+            }
         }
     }
     path
 }
 
-fn fitted(ribbon: &Ribbon, tolerance: f64, path: &mut BezPath) {
-    let left = fit_to_bezpath(&Side { ribbon, side: 1.0 }, tolerance);
-    let right = fit_to_bezpath(&Side { ribbon, side: -1.0 }, tolerance).reverse_subpaths();
-    let (start, end) = (ribbon.pen(0.0), ribbon.pen(1.0));
+fn fitted(ribbon: &Ribbon, from: f64, to: f64, tolerance: f64, path: &mut BezPath) {
+    let side = |side| {
+        let curve = Side { ribbon, side, from, to };
+        let path = fit_to_bezpath(&curve, tolerance);
+        if curve.is_followed_by(&path, tolerance) { path } else { curve.in_pieces(FINE) }
+    };
+    let (left, right) = (side(1.0), side(-1.0).reverse_subpaths());
+    let (start, end) = (ribbon.pen(from), ribbon.pen(to));
     path.extend(left.elements().iter().copied());
     cap(path, &end, end.contact(1.0), end.contact(-1.0));
     path.extend(right.elements().iter().skip(1).copied());
@@ -217,10 +268,10 @@ fn arc(path: &mut BezPath, centre: Point, from: Vec2, to: Vec2) {
 }
 
 /// Unites the convex hulls of neighbouring discs: for cusps, loops and pens wider than the bend.
-fn united_hulls(ribbon: &Ribbon, tolerance: f64, path: &mut BezPath) {
-    let mut parameters = vec![0.0];
-    divide(ribbon, 0.0, 0.5, 0, tolerance, &mut parameters);
-    divide(ribbon, 0.5, 1.0, 0, tolerance, &mut parameters);
+fn united_hulls(ribbon: &Ribbon, from: f64, to: f64, tolerance: f64, path: &mut BezPath) {
+    let (middle, mut parameters) = (f64::midpoint(from, to), vec![from]);
+    divide(ribbon, from, middle, 0, tolerance, &mut parameters);
+    divide(ribbon, middle, to, 0, tolerance, &mut parameters);
     for pair in parameters.windows(2) {
         let (mut a, mut b) = (ribbon.pen(pair[0]), ribbon.pen(pair[1]));
         let along = b.at - a.at;
@@ -269,30 +320,14 @@ fn divide(ribbon: &Ribbon, a: f64, b: f64, depth: u32, tolerance: f64, parameter
 pub fn outline_in_pieces(chain: &[Ribbon], pieces: usize) -> BezPath {
     let mut path = BezPath::new();
     let pieces = pieces.max(1);
-    let step = 1.0 / pieces as f64;
     for ribbon in chain {
-        let side = |side: f64| -> Vec<(Point, Vec2)> {
-            let side = Side { ribbon, side };
-            let at = |i: usize| (side.at(i as f64 * step), side.derivative(i as f64 * step) * (step / 3.0));
-            (0..=pieces).map(at).collect()
-        };
-        let along = |points: &[(Point, Vec2)], sign: f64, path: &mut BezPath| {
-            for pair in points.windows(2) {
-                let ((a, da), (b, db)) = (pair[0], pair[1]);
-                // A fold has derivatives without end: no handle is longer than its piece.
-                let most = (b - a).hypot();
-                let held = |v: Vec2| sign * v * (most / v.hypot().max(1e-12)).min(1.0);
-                path.curve_to(a + held(da), b - held(db), b);
-            }
-        };
-        let (left, mut right) = (side(1.0), side(-1.0));
-        right.reverse();
+        let side = |side: f64| Side { ribbon, side, from: 0.0, to: 1.0 }.in_pieces(pieces);
+        let (left, right) = (side(1.0), side(-1.0).reverse_subpaths());
         let (start, end) = (ribbon.pen(0.0), ribbon.pen(1.0));
-        path.move_to(left[0].0);
-        along(&left, 1.0, &mut path);
-        half_turns(&mut path, end.at, left[pieces].0 - end.at, right[0].0 - end.at);
-        along(&right, -1.0, &mut path);
-        half_turns(&mut path, start.at, right[pieces].0 - start.at, left[0].0 - start.at);
+        path.extend(left.elements().iter().copied());
+        half_turns(&mut path, end.at, end.contact(1.0) - end.at, end.contact(-1.0) - end.at);
+        path.extend(right.elements().iter().skip(1).copied());
+        half_turns(&mut path, start.at, start.contact(-1.0) - start.at, start.contact(1.0) - start.at);
         path.close_path();
     }
     path

@@ -42,6 +42,14 @@ impl Sum {
         all
     }
 
+    /// Another stretch after this one, both of one row of a picture, whose sums have room.
+    #[inline]
+    pub(super) fn add(&mut self, next: Self) {
+        self.second += next.second + next.length * self.first;
+        self.first += next.first;
+        self.length += next.length;
+    }
+
     /// This stretch and another after it.
     #[inline]
     pub(super) fn then(self, next: Self) -> Self {

@@ -60,7 +60,7 @@ impl Cover {
         let area = frame.area;
         let first = (edge.y0 >> BITS).max(area.y0);
         let last = ((edge.y1 - 1) >> BITS).min(area.y1 - 1);
-        if first > last || edge.x0.min(edge.x1) >= area.x1 << BITS {
+        if edge.y0 == edge.y1 || first > last || edge.x0.min(edge.x1) >= area.x1 << BITS {
             return None;
         }
         if edge.x0.max(edge.x1) <= area.x0 << BITS {

@@ -13,7 +13,7 @@ const FLAT: f64 = 0.06;
 /// No edge reaches further out, in pixels: a picture has at most 16,384.
 pub(super) const FAR: f64 = 1e6;
 
-/// An edge that runs down from (`x0`, `y0`) to (`x1`, `y1`), `y0 < y1`. `down` is 1 where the outline did too, else -1.
+/// An edge that runs down from (`x0`, `y0`) to (`x1`, `y1`), `y0 <= y1`. `down` is 1 where the outline did too, else -1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Edge {
     pub(super) x0: i32,
@@ -23,7 +23,7 @@ pub(super) struct Edge {
     pub(super) down: i32,
 }
 
-/// The edges of a filled outline, every contour closed; level ones are left out, for they bound nothing.
+/// The edges of a filled outline, every contour closed. Level ones add no area, but are a border that tiles must know.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Edges(pub(super) Vec<Edge>);
 
@@ -97,11 +97,11 @@ impl Edges {
     }
 
     fn line(&mut self, a: (i32, i32), b: (i32, i32)) {
-        match a.1.cmp(&b.1) {
-            std::cmp::Ordering::Less => self.0.push(Edge { x0: a.0, y0: a.1, x1: b.0, y1: b.1, down: 1 }),
-            std::cmp::Ordering::Greater => self.0.push(Edge { x0: b.0, y0: b.1, x1: a.0, y1: a.1, down: -1 }),
-            std::cmp::Ordering::Equal => {}
+        if a == b {
+            return;
         }
+        let (a, b, down) = if a.1 <= b.1 { (a, b, 1) } else { (b, a, -1) };
+        self.0.push(Edge { x0: a.0, y0: a.1, x1: b.0, y1: b.1, down });
     }
 }
 

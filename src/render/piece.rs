@@ -66,11 +66,12 @@ pub(super) fn splice(pieces: &[&Piece], high: usize, table: &Table, bits: &mut B
     for y in 0..high {
         let filter = FILTERS[usize::from(y > 0)];
         sink.byte(filter);
-        sum.byte(filter);
+        let mut row_sum = Sum::default();
+        row_sum.byte(filter);
         let mut zeros = 0;
         for piece in pieces {
             let row = &piece.rows[y];
-            sum = sum.then(row.sum);
+            row_sum.add(row.sum);
             zeros += row.before as usize;
             if row.bits > 0 {
                 tell_zeros(&mut sink, zeros);
@@ -79,6 +80,7 @@ pub(super) fn splice(pieces: &[&Piece], high: usize, table: &Table, bits: &mut B
             }
         }
         tell_zeros(&mut sink, zeros);
+        sum = sum.then(row_sum);
     }
     table.close(sink.bits);
     sum
@@ -175,8 +177,8 @@ fn tell_differences(now: &[Pixel], above: &[Pixel], channels: usize, sink: &mut 
     let (mut before, mut zeros, mut x) = (None, 0, 0);
     while x < now.len() {
         // Mostly there is no difference.
-        if let (Some(a), Some(b)) = (now.get(x..x + 8), above.get(x..x + 8))
-            && a == b
+        if let (Some(a), Some(b)) = (now[x..].first_chunk::<8>(), above[x..].first_chunk::<8>())
+            && a.iter().zip(b).fold(0, |all, (p, q)| all | (p ^ q)) == 0
         {
             (x, zeros) = (x + 8, zeros + 8 * channels);
             continue;

@@ -246,3 +246,52 @@ fn paint_parts(canvas: &mut Canvas, parts: &[Part], within: Area, cover: &mut Co
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Colour;
+    use crate::geometry::BezPath;
+    use proptest::prelude::*;
+
+    fn shapes(outlines: &[Vec<(i32, i32)>]) -> Drawing {
+        let outline = |points: &Vec<(i32, i32)>| {
+            let mut path = BezPath::new();
+            let at = |p: &(i32, i32)| (8.0 * f64::from(p.0), 8.0 * f64::from(p.1));
+            path.move_to(at(&points[0]));
+            points[1..].iter().for_each(|p| path.line_to(at(p)));
+            path
+        };
+        let colours = [Colour::BLACK, Colour::rgb(200, 30, 30), Colour::rgb(10, 10, 200).faded(0.5)];
+        let items = outlines.iter().zip(colours).map(|(o, c)| Item::area("", outline(o), c)).collect();
+        Drawing {
+            view: Rect::new(0.0, 0.0, 200.0, 136.0),
+            title: String::new(),
+            description: String::new(),
+            background: Some(Colour::WHITE),
+            layers: vec![Layer { name: "dynamic".into(), items }],
+        }
+    }
+
+    proptest! {
+        /// Corners lie on borders of tiles and pixels often, and edges are level often.
+        #[test]
+        fn what_was_painted_before_leaves_nothing_behind(
+            drawings in prop::collection::vec(
+                prop::collection::vec(prop::collection::vec((-4..30_i32, -4..22_i32), 3..7), 1..4), 2..6),
+        ) {
+            let mut painter = Painter::new(200, 136).unwrap();
+            for drawing in drawings.iter().map(|d| shapes(d)) {
+                prop_assert!(painter.paint(&drawing) == Painter::new(200, 136).unwrap().paint(&drawing));
+            }
+        }
+    }
+
+    #[test]
+    fn a_level_edge_through_a_tile_is_seen() {
+        let mut painter = Painter::new(200, 136).unwrap();
+        let _ = painter.paint(&shapes(&[vec![(0, 0), (25, 0), (25, 17), (0, 17)]]));
+        let lower = painter.paint(&shapes(&[vec![(0, 9), (25, 9), (25, 17), (0, 17)]]));
+        assert_eq!((lower.pixel(100, 71), lower.pixel(100, 72)), (Some([255; 4]), Some([0, 0, 0, 255])));
+    }
+}

@@ -126,7 +126,8 @@ impl Grid {
                     let y = y.clamp(e.y0, e.y1);
                     e.x0 + (i64::from(y - e.y0) * i64::from(e.x1 - e.x0) / i64::from(e.y1 - e.y0)) as i32
                 };
-                let (from, to) = if e.x0.div_euclid(wide) == e.x1.div_euclid(wide) {
+                let level = e.y0 == e.y1;
+                let (from, to) = if level || e.x0.div_euclid(wide) == e.x1.div_euclid(wide) {
                     (e.x0, e.x1)
                 } else {
                     (at(row * high), at((row + 1) * high))
