@@ -47,8 +47,7 @@ fn parts_joined_are_the_whole_bit_for_bit() {
     // The task of a job array that counts from 10 in steps of 5.
     let array = [("ID", "20"), ("MIN", "10"), ("COUNT", "4"), ("STEP", "5")];
     let mut third = call(&parts, "0-9,12");
-    array.iter().for_each(|(name, value)| drop(third.env(format!("SLURM_ARRAY_TASK_{name}"), value)));
-    third.assert().success();
+    third.envs(array.map(|(name, value)| (format!("SLURM_ARRAY_TASK_{name}"), value))).assert().success();
     lianpu().arg("merge").arg(&parts).assert().success();
     let manifest = |folder: &Path| std::fs::read_to_string(folder.join("manifest.json")).unwrap();
     assert_eq!(manifest(&plain), manifest(&parts));
