@@ -137,21 +137,31 @@ pub(super) fn frames_asked(request: &Request, name: &str, count: u32) -> Result<
     Ok(request.frames.of(count))
 }
 
-/// The files that carry a clip's times as text: form by form, where each goes.
+/// A file that carries a clip's times as text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Text {
+    TextGrid,
+    Vtt,
+    Srt,
+    KaraokeSrt,
+    Poses,
+}
+
+/// Those that are asked for, and where each goes.
 pub(super) fn texts_of<'a>(
     request: &'a Request,
     clip: &'a str,
     out: &'a Path,
-) -> impl Iterator<Item = (Format, PathBuf)> + 'a {
-    request.formats.iter().filter(|f| f.is_text()).map(move |format| {
-        let ending = match format {
-            Format::TextGrid => crate::timing::Format::TextGrid.extension(),
-            Format::Vtt => "vtt",
-            Format::Srt => "srt",
-            _ => "poses.csv",
-        };
-        (*format, out.join(format!("{clip}.{ending}")))
-    })
+) -> impl Iterator<Item = (Text, PathBuf)> + 'a {
+    let texts = |format: &Format| match format {
+        Format::TextGrid => &[(Text::TextGrid, "TextGrid")][..],
+        Format::Vtt => &[(Text::Vtt, "vtt")],
+        Format::Srt => &[(Text::Srt, "srt"), (Text::KaraokeSrt, "karaoke.srt")],
+        Format::Poses => &[(Text::Poses, "poses.csv")],
+        _ => &[],
+    };
+    let all = request.formats.iter().flat_map(texts);
+    all.map(move |(text, ending)| (*text, out.join(format!("{clip}.{ending}"))))
 }
 
 /// Size and frame rate: the manifest's, or those asked for.
@@ -215,16 +225,17 @@ fn job(
     };
     let whole = request.frames.is_all() && frames.len() == asked.len();
     let with_texts = share.is_none_or(|s| s.whole_files);
-    let texts = texts_of(request, &clip.entry.name, out).filter(|_| with_texts).map(|(format, path)| {
+    let texts = texts_of(request, &clip.entry.name, out).filter(|_| with_texts).map(|(text, path)| {
         // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
-        let text = match format {
-            Format::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
-            Format::Vtt => captions::vtt(&said::phrases(clip)),
-            Format::Srt => {
+        let text = match text {
+            Text::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
+            Text::Vtt => captions::vtt(&said::phrases(clip)),
+            Text::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
+            Text::Srt => {
                 let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
                 crate::timing::write(&phrases, crate::timing::Format::Srt)
             }
-            _ => poses::to_csv(&timeline, &asked),
+            Text::Poses => poses::to_csv(&timeline, &asked),
         };
         (path, text)
     });

@@ -73,11 +73,6 @@ impl Canvas {
         self.area
     }
 
-    /// All pixels, row by row.
-    pub(super) fn pixels(&self) -> &[Pixel] {
-        &self.pixels
-    }
-
     /// The pixels `x0..x1` of row `y`, which lie on the sheet.
     pub(super) fn row(&self, y: i32, x0: i32, x1: i32) -> &[Pixel] {
         let start = (y - self.area.y0) as usize * self.area.width();

@@ -17,6 +17,7 @@ mod png;
 mod print;
 mod raster;
 mod recent;
+mod reel;
 mod svg;
 mod tiles;
 mod tokens;
@@ -25,6 +26,7 @@ pub use clip::{ClipCoder, FrameCoder};
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::{Painter, Picture};
 pub use png::{decode_key, encode_png};
+pub use reel::Reel;
 pub use svg::to_svg;
 
 /// The largest picture side that is made: 16,384 pixels.

@@ -1,5 +1,6 @@
 //! A clip as one moving picture: its frames painted one after the other and handed to whoever packs them.
 
+use std::ops::Range;
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
@@ -13,14 +14,13 @@ use crate::export::manifest::hex;
 use crate::export::movie::{self, Container, Film};
 use crate::export::{Format, Frames, Job, Ledger, Outcome, Watch};
 use crate::project::Clip;
-use crate::render::{Painter, Picture, REVISION};
+use crate::render::{Picture, REVISION, Reel};
 use crate::timing::{self, Tier, Timing};
 
 /// The frames of a job, painted as they are asked for.
 struct Painted<'a> {
     job: &'a Job,
-    painter: Painter,
-    picture: Picture,
+    reel: Reel,
 }
 
 impl Frames for Painted<'_> {
@@ -32,10 +32,13 @@ impl Frames for Painted<'_> {
         u32::try_from(self.job.frames.len()).unwrap_or(u32::MAX)
     }
 
-    fn at(&mut self, n: u32) -> Result<&Picture> {
+    fn show(&mut self, n: u32) -> Result<(Range<u32>, Range<u32>)> {
         let frame = self.job.frames.get(n as usize).ok_or_else(|| Fault::new("there is no such frame"))?;
-        self.painter.paint_into(&self.job.drawing(*frame), &mut self.picture);
-        Ok(&self.picture)
+        Ok(self.reel.show(&self.job.drawing(*frame)))
+    }
+
+    fn picture(&self) -> &Picture {
+        self.reel.picture()
     }
 }
 
@@ -70,11 +73,7 @@ impl Moving<'_> {
     fn film(&self, path: &Path, captions: &Tier, watch: &Watch<'_>) -> Result<Outcome> {
         let job = self.job;
         let [width, height] = job.size;
-        let mut frames = Painted {
-            job,
-            painter: Painter::new(width, height)?,
-            picture: Picture { width, height, rgba: Vec::new() },
-        };
+        let mut frames = Painted { job, reel: Reel::new(width, height)? };
         let (fps, opaque) = (job.timeline.fps(), self.is_opaque());
         let container = match self.format {
             Format::Gif => {
