@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Dedupe, Format, FrameSet, Shard, captions, poses, said};
+use super::{Dedupe, Format, FrameSet, Share, captions, poses, said};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::Figure;
@@ -23,8 +23,8 @@ pub struct Request {
     pub by_project: bool,
     /// Which frames.
     pub frames: FrameSet,
-    /// Which part of them.
-    pub shard: Shard,
+    /// What of each clip is to be done, where others do the rest; everything where left out.
+    pub shares: Option<Vec<Share>>,
     /// Instead of the manifest's size in pixels.
     pub size: Option<[u32; 2]>,
     /// Instead of the manifest's frames a second.
@@ -49,7 +49,7 @@ impl Request {
             out: None,
             by_project: false,
             frames: FrameSet::default(),
-            shard: Shard::WHOLE,
+            shares: None,
             size: None,
             fps: None,
             background: None,
@@ -57,6 +57,11 @@ impl Request {
             jobs: 0,
             thesis: false,
         }
+    }
+
+    /// The share of the clip at a place among those that are asked for.
+    pub(super) fn share_of(&self, place: usize) -> Option<&Share> {
+        self.shares.as_ref().and_then(|shares| shares.get(place))
     }
 }
 
@@ -67,6 +72,8 @@ pub struct Job {
     pub title: String,
     /// The clip's name.
     pub clip: String,
+    /// The folder of the export's manifest, which all files are in.
+    pub root: PathBuf,
     /// Frames go here as `000000.png` and so on.
     pub folder: PathBuf,
     /// The frames to write.
@@ -99,7 +106,7 @@ impl Job {
     }
 }
 
-/// Works out the jobs of an export, one a clip. Nothing is written yet.
+/// Works out the jobs of an export, one a clip that has something to be done. Nothing is written yet.
 ///
 /// # Errors
 /// When a clip, figure, size or frame rate cannot be used.
@@ -107,7 +114,44 @@ pub fn plan(lesson: &Lesson, request: &Request) -> Result<Vec<Job>> {
     let output = checked_output(lesson, request)?;
     let clips = chosen_clips(lesson, request)?;
     let out = out_folder(lesson, request);
-    clips.into_iter().map(|clip| job(lesson, clip, request, &output, &out)).collect()
+    let mut jobs = Vec::with_capacity(clips.len());
+    for (place, clip) in clips.into_iter().enumerate() {
+        let share = request.share_of(place);
+        if share.is_none_or(|s| !s.is_empty()) {
+            jobs.push(job(lesson, clip, request, share, &output, &out)?);
+        }
+    }
+    Ok(jobs)
+}
+
+/// The frames that are asked of a clip, by all parts of the export.
+///
+/// # Errors
+/// When the clip has no such frame.
+pub(super) fn frames_asked(request: &Request, name: &str, count: u32) -> Result<Vec<u32>> {
+    if let Some(last) = request.frames.last().filter(|last| *last >= count) {
+        return Err(Fault::new(format!("frame {last} is beyond the clip `{name}`"))
+            .help(format!("it has {count} frames, 0 to {}", count.saturating_sub(1)))
+            .of_the_call());
+    }
+    Ok(request.frames.of(count))
+}
+
+/// The files that carry a clip's times as text: form by form, where each goes.
+pub(super) fn texts_of<'a>(
+    request: &'a Request,
+    clip: &'a str,
+    out: &'a Path,
+) -> impl Iterator<Item = (Format, PathBuf)> + 'a {
+    request.formats.iter().filter(|f| f.is_text()).map(move |format| {
+        let ending = match format {
+            Format::TextGrid => crate::timing::Format::TextGrid.extension(),
+            Format::Vtt => "vtt",
+            Format::Srt => "srt",
+            _ => "poses.csv",
+        };
+        (*format, out.join(format!("{clip}.{ending}")))
+    })
 }
 
 /// Size and frame rate: the manifest's, or those asked for.
@@ -135,6 +179,11 @@ pub(super) fn chosen_clips(lesson: &Lesson, request: &Request) -> Result<Vec<usi
     })
 }
 
+/// The folder that an export's manifest lies in: of one lesson its own, or one for several.
+pub(super) fn root_folder(lesson: &Lesson, request: &Request) -> PathBuf {
+    request.out.clone().unwrap_or_else(|| lesson.root.join("export"))
+}
+
 /// Where the files go.
 pub(super) fn out_folder(lesson: &Lesson, request: &Request) -> PathBuf {
     let project = || {
@@ -148,37 +197,42 @@ pub(super) fn out_folder(lesson: &Lesson, request: &Request) -> PathBuf {
     }
 }
 
-fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &Path) -> Result<Job> {
+fn job(
+    lesson: &Lesson,
+    index: usize,
+    request: &Request,
+    share: Option<&Share>,
+    output: &Output,
+    out: &Path,
+) -> Result<Job> {
     let clip = &lesson.clips[index];
     let timeline = lesson.timeline(index, Some(output.fps));
     let count = timeline.frames();
-    if let Some(last) = request.frames.last().filter(|last| *last >= count) {
-        return Err(Fault::new(format!("frame {last} is beyond the clip `{}`", clip.entry.name))
-            .help(format!("it has {count} frames, 0 to {}", count.saturating_sub(1)))
-            .of_the_call());
-    }
-    let frames = request.shard.of(&request.frames.of(count));
-    let whole = request.frames.is_all() && request.shard == Shard::WHOLE;
-    let texts = request.formats.iter().filter(|f| f.is_text()).map(|format| {
-        let path = |ending: &str| out.join(format!("{}.{ending}", clip.entry.name));
+    let asked = frames_asked(request, &clip.entry.name, count)?;
+    let frames = match share {
+        Some(share) => asked.get(share.frames.start as usize..share.frames.end as usize).unwrap_or_default().to_vec(),
+        None => asked.clone(),
+    };
+    let whole = request.frames.is_all() && frames.len() == asked.len();
+    let with_texts = share.is_none_or(|s| s.whole_files);
+    let texts = texts_of(request, &clip.entry.name, out).filter(|_| with_texts).map(|(format, path)| {
         // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
-        match format {
-            Format::TextGrid => {
-                let timing = crate::timing::Format::TextGrid;
-                (path(timing.extension()), crate::timing::write(&clip.timing, timing))
-            }
-            Format::Vtt => (path("vtt"), captions::vtt(&said::phrases(clip))),
+        let text = match format {
+            Format::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
+            Format::Vtt => captions::vtt(&said::phrases(clip)),
             Format::Srt => {
                 let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
-                (path("srt"), crate::timing::write(&phrases, crate::timing::Format::Srt))
+                crate::timing::write(&phrases, crate::timing::Format::Srt)
             }
-            _ => (path("poses.csv"), poses::to_csv(&timeline, &frames)),
-        }
+            _ => poses::to_csv(&timeline, &asked),
+        };
+        (path, text)
     });
     let texts = texts.collect();
     Ok(Job {
         title: lesson.manifest.title.clone(),
         clip: clip.entry.name.clone(),
+        root: root_folder(lesson, request),
         folder: out.join(&clip.entry.name),
         frames,
         whole,
