@@ -82,6 +82,9 @@ fn settings(
         ("renderer".to_owned(), REVISION.to_string()),
         ("lesson".to_owned(), state_of(lesson, clip)),
     ]);
+    if let Some(width) = request.width {
+        all.insert("width".into(), width.name().into());
+    }
     if request.thesis && request.formats.contains(&Format::Smil) {
         all.insert("smil".into(), "thesis".into());
     }

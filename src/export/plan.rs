@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::{Dedupe, Format, FrameSet, Share, captions, poses, said};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::figure::Figure;
-use crate::project::{Lesson, Output};
+use crate::figure::{Figure, Widths};
+use crate::project::{ClipEntry, Lesson, Output};
 use crate::timeline::Timeline;
 use crate::timing::Timing;
 
@@ -31,6 +31,8 @@ pub struct Request {
     pub fps: Option<f64>,
     /// Instead of the figure's background; `Some(None)` is transparent.
     pub background: Option<Option<Colour>>,
+    /// How the widths of a line figure's strokes run, instead of as the figure says.
+    pub width: Option<Widths>,
     /// What is done about frames that are equal.
     pub dedupe: Dedupe,
     /// Threads; 0 for as many as there are processors.
@@ -53,10 +55,23 @@ impl Request {
             size: None,
             fps: None,
             background: None,
+            width: None,
             dedupe: Dedupe::default(),
             jobs: 0,
             thesis: false,
         }
+    }
+
+    /// The figure of a clip, drawn as it is asked for.
+    ///
+    /// # Errors
+    /// As [`Lesson::figure_of`].
+    pub(super) fn figure_of(&self, lesson: &Lesson, clip: &ClipEntry) -> Result<Figure> {
+        let figure = lesson.figure_of(clip)?;
+        Ok(match self.width {
+            Some(widths) => figure.with_widths(widths),
+            None => figure,
+        })
     }
 
     /// The share of the clip at a place among those that are asked for.
@@ -254,6 +269,6 @@ fn job(
         texts,
         formats: request.formats.iter().copied().filter(|f| f.is_frames()).collect(),
         timeline,
-        figure: lesson.figure_of(&clip.entry)?,
+        figure: request.figure_of(lesson, &clip.entry)?,
     })
 }

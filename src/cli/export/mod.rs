@@ -11,6 +11,7 @@ use std::sync::atomic::AtomicBool;
 use self::course::Course;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
+use crate::figure::Widths;
 use crate::export::{Dedupe, Format, FrameSet, Request, Shard, shard_of_array};
 
 /// Write lessons as frames, subtitles, pages, books and what other programs read. Run again, it only writes what is missing or has changed.
@@ -49,6 +50,11 @@ pub struct Args {
     /// #rrggbb, white, black or transparent.
     #[arg(long, value_name = "COLOR")]
     background: Option<Colour>,
+    /// How the strokes of a line figure get their width between control points: bezier, along the curve, or paper,
+    /// straight from one point's width to the next one's. As the figure's file says where left out. The cartoon's
+    /// lines have no such points.
+    #[arg(long, value_name = "bezier|paper")]
+    width: Option<Widths>,
     /// What is done about frames that are equal: link makes them one file under several names, copy copies, none makes
     /// each by itself.
     #[arg(long, value_name = "link|copy|none", default_value = "link", hide_default_value = true)]
@@ -88,6 +94,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         size: args.size,
         fps: args.fps,
         background: args.background.map(|c| if c.a == 0 { None } else { Some(c) }),
+        width: args.width,
         dedupe: args.dedupe,
         jobs: args.jobs.into(),
         thesis: args.thesis,

@@ -231,12 +231,12 @@ impl<'a> Workshop<'a> {
             Format::Lpr => ratios::compact(clip, &lesson.timeline(first, Some(self.output.fps)), base)?,
             Format::Lottie => one("json", self.lottie(first)?.into_bytes()),
             Format::Mouths => {
-                let figure = lesson.figure_of(&clip.entry)?;
+                let figure = self.request.figure_of(lesson, &clip.entry)?;
                 let preset = lesson.mouths_of(&clip.entry);
                 mouths::mouths(&figure, preset, self.output.size, self.request.background, base)?
             }
             Format::Layers => {
-                let figure = lesson.figure_of(&clip.entry)?;
+                let figure = self.request.figure_of(lesson, &clip.entry)?;
                 let (preset, ground) = (lesson.mouths_of(&clip.entry), self.request.background);
                 let text = layers::layered(&figure, preset, self.output.size, ground, &self.title(clip));
                 one("layers.svg", text.into_bytes())
@@ -270,7 +270,7 @@ impl<'a> Workshop<'a> {
 
     fn lottie(&self, clip: usize) -> Result<String> {
         let own = &self.lesson.clips[clip];
-        let figure = self.lesson.figure_of(&own.entry)?;
+        let figure = self.request.figure_of(self.lesson, &own.entry)?;
         let timeline = self.lesson.timeline(clip, Some(self.output.fps));
         let first = figure.draw(&timeline.pose(0.0));
         let grid = Grid::new(first.view, self.output.size);
@@ -318,7 +318,7 @@ impl<'a> Workshop<'a> {
             let parts = self.parts(*number)?;
             let (title, description) = (self.title(clip), self.description(clip));
             let words = smil::Words { title: &title, description: &description };
-            let mut first = lesson.figure_of(&clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
+            let mut first = self.request.figure_of(lesson, &clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
             first.background = self.request.background.unwrap_or(first.background);
             chapters.push(epub::Chapter {
                 svg: smil::animated(&parts, &words, None),
@@ -333,7 +333,7 @@ impl<'a> Workshop<'a> {
             });
         }
         let figure = match clips.first() {
-            Some(first) => lesson.figure_of(&lesson.clips[*first].entry)?,
+            Some(first) => self.request.figure_of(lesson, &lesson.clips[*first].entry)?,
             None => return Ok(Vec::new()),
         };
         epub::book(&lesson.manifest.title, &figure, &chapters)
@@ -357,7 +357,7 @@ impl<'a> Workshop<'a> {
         if let Some((_, parts)) = self.parts.as_ref().filter(|(number, _)| *number == clip) {
             return Ok(Rc::clone(parts));
         }
-        let figure = self.lesson.figure_of(&self.lesson.clips[clip].entry)?;
+        let figure = self.request.figure_of(self.lesson, &self.lesson.clips[clip].entry)?;
         let timeline = self.lesson.timeline(clip, Some(self.output.fps));
         let parts = Rc::new(parts::parts(&figure, &timeline, self.output.size, self.request.background));
         self.parts = Some((clip, Rc::clone(&parts)));
