@@ -22,7 +22,7 @@ use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::asked::within;
-use super::parts::{self, Grid, Parts};
+use super::parts::{self, Parts};
 use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
 use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
 use crate::disk::{Result, write_whole};
@@ -229,7 +229,10 @@ impl<'a> Workshop<'a> {
             Format::Moho => shapes::moho(self.shapes(first, notes), self.request.fps.unwrap_or(MOHO_FPS), base),
             Format::Ratios => ratios::tables(clip, &lesson.timeline(first, Some(self.output.fps)), base),
             Format::Lpr => ratios::compact(clip, &lesson.timeline(first, Some(self.output.fps)), base)?,
-            Format::Lottie => one("json", self.lottie(first)?.into_bytes()),
+            Format::Lottie => {
+                let parts = self.parts(first)?;
+                one("json", lottie::lottie(&parts, &self.title(clip)).into_bytes())
+            }
             Format::Mouths => {
                 let figure = self.request.figure_of(lesson, &clip.entry)?;
                 let preset = lesson.mouths_of(&clip.entry);
@@ -268,26 +271,6 @@ impl<'a> Workshop<'a> {
         film.write(&path, ledger, &Watch { progress: &progress, stop })
     }
 
-    fn lottie(&self, clip: usize) -> Result<String> {
-        let own = &self.lesson.clips[clip];
-        let figure = self.request.figure_of(self.lesson, &own.entry)?;
-        let timeline = self.lesson.timeline(clip, Some(self.output.fps));
-        let first = figure.draw(&timeline.pose(0.0));
-        let grid = Grid::new(first.view, self.output.size);
-        let survey = parts::survey(&figure, parts::poses(&timeline), &grid, lottie::ONE_LOOK);
-        let frames = survey.frames;
-        let (items, moves) = survey.done();
-        Ok(lottie::lottie(&lottie::Film {
-            title: &self.title(own),
-            grid,
-            fps: self.output.fps,
-            background: self.request.background.unwrap_or(first.background),
-            items: &items,
-            moves: &moves,
-            frames,
-        }))
-    }
-
     /// The page of some clips.
     fn page(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<String> {
         let lesson = self.lesson;
@@ -303,6 +286,7 @@ impl<'a> Workshop<'a> {
                 parts: &parts,
                 sound: sound.as_deref(),
                 phrases: said::phrases(clip),
+                zhuyin: clip.entry.script_system == Some(System::Zhuyin),
             });
         }
         Ok(page.done(&lesson.manifest.title))
@@ -329,6 +313,7 @@ impl<'a> Workshop<'a> {
                 sound,
                 phrases: said::phrases(clip),
                 zhuyin: clip.entry.script_system == Some(System::Zhuyin),
+                fps: parts.fps,
                 size: self.output.size,
             });
         }
