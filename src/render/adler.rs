@@ -19,6 +19,17 @@ impl Sum {
         Self { length: length.into(), ..Self::default() }
     }
 
+    /// Both sums in little room.
+    pub(super) fn packed(self) -> [u16; 2] {
+        [(self.first % BASE) as u16, (self.second % BASE) as u16]
+    }
+
+    /// Sums again, of so many bytes.
+    #[inline]
+    pub(super) fn unpacked(length: u32, [first, second]: [u16; 2]) -> Self {
+        Self { length: length.into(), first: first.into(), second: second.into() }
+    }
+
     /// Replaces zeros by bytes, the first of which is so far from the end (1 for the last). The stretch is short: below
     /// 2^20.
     #[inline]
@@ -97,6 +108,7 @@ mod tests {
             let mut put = Sum::zeros(bytes.len() as u32);
             bytes.chunks(3).enumerate().for_each(|(i, three)| put.put(three, (bytes.len() - 3 * i) as u32));
             prop_assert_eq!(put.value(), slow(&bytes));
+            prop_assert_eq!(Sum::unpacked(bytes.len() as u32, put.packed()).value(), slow(&bytes));
         }
     }
 }

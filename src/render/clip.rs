@@ -25,7 +25,8 @@ use crate::disk::Result;
 use crate::drawing::Drawing;
 
 /// Bytes of pieces, and of whole bands, that a thread keeps.
-const KEPT: usize = 3 << 20;
+const PIECES: usize = 10 << 20;
+const BANDS: usize = 2 << 20;
 
 /// Bytes for the names of tiles that have been there.
 const SEEN: usize = 1 << 20;
@@ -110,8 +111,8 @@ impl ClipCoder {
         Ok(FrameCoder {
             clip: self,
             painter,
-            pieces: Recent::new(KEPT),
-            bands: Recent::new(KEPT),
+            pieces: Recent::new(PIECES),
+            bands: Recent::new(BANDS),
             bits: Bits::default(),
             data: Vec::new(),
             seen: Recent::new(SEEN),

@@ -1,7 +1,6 @@
 //! Outlines as straight edges in whole 256ths of a pixel: from there on all is whole numbers.
 
 use super::canvas::Area;
-use super::print::Print;
 use crate::geometry::{Affine, BezPath, PathEl, Point, Vec2};
 
 /// Edges are told in so many parts of a pixel, as a power of 2.
@@ -83,17 +82,6 @@ impl Edges {
             return Area::NONE;
         }
         Area { x0: all.x0 >> BITS, y0: all.y0 >> BITS, x1: (all.x1 >> BITS) + 1, y1: (all.y1 >> BITS) + 1 }
-    }
-
-    /// Puts all that they are into a print.
-    pub(super) fn print(&self, print: &mut Print) {
-        let pair = |a: i32, b: i32| u64::from(a as u32) << 32 | u64::from(b as u32);
-        print.word(self.0.len() as u64);
-        for e in &self.0 {
-            // 2^28 is further than any edge reaches, so that a sign has room.
-            print.word(pair(e.x0, e.y0) ^ (e.down as u64) << 63);
-            print.word(pair(e.x1, e.y1));
-        }
     }
 
     fn line(&mut self, a: (i32, i32), b: (i32, i32)) {

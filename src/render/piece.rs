@@ -13,6 +13,8 @@ pub(super) const FILTERS: [u8; 2] = [0, 2];
 
 /// Tiles that lie side by side, in the codes of a table.
 pub(super) struct Piece {
+    /// Bytes of a row.
+    length: u32,
     rows: Box<[Row]>,
     words: Box<[u64]>,
 }
@@ -23,7 +25,7 @@ struct Row {
     start: u32,
     bits: u32,
     after: u32,
-    sum: Sum,
+    sum: [u16; 2],
 }
 
 /// A part of a band.
@@ -78,10 +80,10 @@ impl Piece {
                 start: (start / 64) as u32,
                 bits: count as u32,
                 after: after as u32,
-                sum: row.sum,
+                sum: row.sum.packed(),
             });
         }
-        Self { rows: told.into(), words: bits.words().into() }
+        Self { length: (area.width() * channels) as u32, rows: told.into(), words: bits.words().into() }
     }
 
     /// Bytes of memory that it takes.
@@ -119,7 +121,7 @@ pub(super) fn tell_band(
             match (stretch, rows) {
                 (Stretch::Ready(piece), _) => {
                     let ready = &piece.rows[y];
-                    row.sum.add(ready.sum);
+                    row.sum.add(Sum::unpacked(piece.length, ready.sum));
                     row.zeros += ready.before as usize;
                     if ready.bits > 0 {
                         row.close(&mut sink);

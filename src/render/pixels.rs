@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::canvas::{Area, Canvas, Pixel, pixel_of, straight};
-use super::leaf::{Leaf, Part, leaves};
+use super::leaf::{Leaf, Part, leaves, print_of};
 use super::paint::{Room, paint};
 use super::print::{ByPrint, Print};
 use super::tiles::Grid;
@@ -43,13 +43,20 @@ pub struct Painter {
     grid: Grid,
     font: Option<FontFile>,
     room: Room,
-    /// Shared things made ready, those of the last drawing.
-    kept: ByPrint<Arc<[Leaf]>>,
+    /// What was made ready for the last drawing.
+    ready: Ready,
     still_print: Option<Print>,
     still_prints: Arc<[Print]>,
     /// The still layers alone.
     still: Sheet,
     whole: Sheet,
+}
+
+/// Things made ready, alone and those that drawings share.
+#[derive(Default)]
+struct Ready {
+    alone: ByPrint<Arc<Leaf>>,
+    shared: ByPrint<Arc<[Leaf]>>,
 }
 
 /// A canvas and what is on each of its tiles.
@@ -100,7 +107,7 @@ impl Painter {
             grid,
             font: None,
             room: Room::default(),
-            kept: ByPrint::default(),
+            ready: Ready::default(),
             still_print: None,
             still_prints: Arc::new([]),
             still: Sheet::new(grid, area),
@@ -113,7 +120,7 @@ impl Painter {
     pub fn with_font(self, font: Option<FontFile>) -> Self {
         let area = self.whole.canvas.area();
         let (still, whole) = (Sheet::new(self.grid, area), Sheet::new(self.grid, area));
-        Self { font, kept: ByPrint::default(), still_print: None, still, whole, ..self }
+        Self { font, ready: Ready::default(), still_print: None, still, whole, ..self }
     }
 
     /// Paints one drawing.
@@ -158,10 +165,10 @@ impl Painter {
         let place = fit(drawing.view, frame);
         let count = drawing.layers.iter().take_while(|l| l.name == "static").count();
         let (still, moving) = drawing.layers.split_at(count);
-        let mut kept = ByPrint::default();
-        let still = self.parts(still, place, &mut kept);
-        let moving = self.parts(moving, place, &mut kept);
-        self.kept = kept;
+        let mut now = Ready::default();
+        let still = self.parts(still, place, &mut now);
+        let moving = self.parts(moving, place, &mut now);
+        self.ready = now;
 
         let background = drawing.background.map_or(0, |c| pixel_of([c.r, c.g, c.b, c.a]));
         let mut still_print = Print::START;
@@ -183,31 +190,38 @@ impl Painter {
         Plan { background, still, moving, still_prints: Arc::clone(&self.still_prints), prints }
     }
 
-    fn parts(&self, layers: &[Layer], place: Affine, kept: &mut ByPrint<Arc<[Leaf]>>) -> Vec<Part> {
+    fn parts(&self, layers: &[Layer], place: Affine, now: &mut Ready) -> Vec<Part> {
         let mut parts = Vec::with_capacity(64);
         for item in layers.iter().flat_map(|l| &l.items) {
-            self.part(item, place, kept, &mut parts);
+            self.part(item, place, now, &mut parts);
         }
         parts
     }
 
-    fn part(&self, item: &Item, place: Affine, kept: &mut ByPrint<Arc<[Leaf]>>, parts: &mut Vec<Part>) {
+    fn part(&self, item: &Item, place: Affine, now: &mut Ready, parts: &mut Vec<Part>) {
         match item {
             Item::Shared(shared) => {
                 let mut print = Print::START;
                 print.numbers(&place.as_coeffs());
                 print.word(shared.fingerprint());
                 let ready = || {
-                    let old = self.kept.get(&print).cloned();
+                    let old = self.ready.shared.get(&print).cloned();
                     old.unwrap_or_else(|| leaves(shared.items(), place, self.font.as_ref()).into())
                 };
-                parts.push(Part::Kept(print, Arc::clone(kept.entry(print).or_insert_with(ready))));
+                parts.push(Part::Kept(print, Arc::clone(now.shared.entry(print).or_insert_with(ready))));
             }
             Item::Group(group) if group.clip.is_none() => {
                 let place = place * group.transform;
-                group.items.iter().for_each(|item| self.part(item, place, kept, parts));
+                group.items.iter().for_each(|item| self.part(item, place, now, parts));
             }
-            _ => parts.push(Part::One(Leaf::new(item, place, self.font.as_ref()))),
+            _ => {
+                let print = print_of(item, place);
+                let ready = || match self.ready.alone.get(&print) {
+                    Some(leaf) => Arc::clone(leaf),
+                    None => Arc::new(Leaf::new(item, print, place, self.font.as_ref())),
+                };
+                parts.push(Part::One(Arc::clone(now.alone.entry(print).or_insert_with(ready))));
+            }
         }
     }
 
