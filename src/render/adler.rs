@@ -11,16 +11,33 @@ pub(super) struct Sum {
 }
 
 impl Sum {
+    /// Of no bytes.
+    pub(super) const NONE: Self = Self { length: 0, first: 0, second: 0 };
+
     /// Of so many zeros.
     pub(super) fn zeros(length: u32) -> Self {
         Self { length: length.into(), ..Self::default() }
     }
 
-    /// Replaces a zero, which is so far from the end (1 for the last), by a byte. The stretch is short: below 2^20.
+    /// Both sums in little room.
+    pub(super) fn packed(self) -> [u16; 2] {
+        [(self.first % BASE) as u16, (self.second % BASE) as u16]
+    }
+
+    /// Sums again, of so many bytes.
     #[inline]
-    pub(super) fn put(&mut self, byte: u8, from_end: u32) {
-        self.first += u64::from(byte);
-        self.second += u64::from(byte) * u64::from(from_end);
+    pub(super) fn unpacked(length: u32, [first, second]: [u16; 2]) -> Self {
+        Self { length: length.into(), first: first.into(), second: second.into() }
+    }
+
+    /// Replaces zeros by bytes, the first of which is so far from the end (1 for the last). The stretch is short: below
+    /// 2^20.
+    #[inline]
+    pub(super) fn put(&mut self, bytes: &[u8], from_end: u32) {
+        for (byte, from_end) in bytes.iter().zip((0..=from_end).rev()) {
+            self.first += u64::from(*byte);
+            self.second += u64::from(*byte) * u64::from(from_end);
+        }
     }
 
     /// Appends a byte.
@@ -89,8 +106,9 @@ mod tests {
             prop_assert_eq!(Sum::of(&bytes).value(), slow(&bytes));
             prop_assert_eq!(Sum::of(one).then(Sum::of(two)).value(), slow(&bytes));
             let mut put = Sum::zeros(bytes.len() as u32);
-            bytes.iter().enumerate().for_each(|(i, b)| put.put(*b, (bytes.len() - i) as u32));
+            bytes.chunks(3).enumerate().for_each(|(i, three)| put.put(three, (bytes.len() - 3 * i) as u32));
             prop_assert_eq!(put.value(), slow(&bytes));
+            prop_assert_eq!(Sum::unpacked(bytes.len() as u32, put.packed()).value(), slow(&bytes));
         }
     }
 }

@@ -4,7 +4,7 @@
 pub(super) type Pixel = u32;
 
 /// A box of whole pixels; the right and lower edges are outside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Area {
     pub(super) x0: i32,
     pub(super) y0: i32,
@@ -58,6 +58,7 @@ impl Area {
 }
 
 /// Pixels of a part of the picture, in the picture's own coordinates.
+#[derive(Default)]
 pub(super) struct Canvas {
     area: Area,
     pixels: Vec<Pixel>,
@@ -71,6 +72,13 @@ impl Canvas {
 
     pub(super) fn area(&self) -> Area {
         self.area
+    }
+
+    /// The same in memory that was used before.
+    pub(super) fn renew(&mut self, area: Area) {
+        self.area = area;
+        self.pixels.clear();
+        self.pixels.resize(area.width() * area.height(), 0);
     }
 
     /// The pixels `x0..x1` of row `y`, which lie on the sheet.
@@ -119,13 +127,33 @@ pub(super) fn over(source: Pixel, below: Pixel) -> Pixel {
     source + scaled(below, 255 - (source >> 24))
 }
 
+/// An opaque pixel over another one, with `part / 255` of it covering.
+#[inline]
+pub(super) fn mixed(source: Pixel, below: Pixel, part: u32) -> Pixel {
+    let pair = |two: u32, under: u32| {
+        let sum = two * part + under * (255 - part) + 0x0080_0080;
+        (sum + ((sum >> 8) & PAIR)) >> 8 & PAIR
+    };
+    pair(source & PAIR, below & PAIR) | pair(source >> 8 & PAIR, below >> 8 & PAIR) << 8
+}
+
 /// One pixel over all of a row.
 #[inline]
 pub(super) fn lay(row: &mut [Pixel], source: Pixel) {
     match source >> 24 {
         0 => {}
         255 => row.fill(source),
-        alpha => row.iter_mut().for_each(|p| *p = source + scaled(*p, 255 - alpha)),
+        alpha => {
+            // What is below is often alike for long.
+            let (mut below, mut laid) = (0, source);
+            for pixel in row {
+                if *pixel != below {
+                    below = *pixel;
+                    laid = source + scaled(below, 255 - alpha);
+                }
+                *pixel = laid;
+            }
+        }
     }
 }
 
@@ -156,6 +184,16 @@ mod tests {
             for part in 0..=255_u32 {
                 let wanted = (value * part * 2 + 255) / 510;
                 assert_eq!(scaled(value * 0x0101_0101, part), wanted * 0x0101_0101, "{value} × {part}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_mixture_is_rounded_once_and_stays_opaque() {
+        for (a, b) in (0..=255_u32).flat_map(|a| [0, 1, 77, 128, 254, 255].map(|b| (a, b))) {
+            for part in 0..=255_u32 {
+                let wanted = ((a * part + b * (255 - part)) * 2 + 255) / 510;
+                assert_eq!(mixed(a * 0x0101_0101, b * 0x0101_0101, part), wanted * 0x0101_0101, "{a} {b} {part}");
             }
         }
     }

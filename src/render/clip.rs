@@ -5,7 +5,7 @@
 //! of the clip. Which those are is fixed, so a frame has the same bytes whichever frames are written, in which order, and
 //! by how many threads.
 
-use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use miniz_oxide::deflate::core::{CompressorOxide, TDEFLFlush, compress_to_output, create_comp_flags_from_zip_params};
@@ -13,10 +13,10 @@ use miniz_oxide::deflate::core::{CompressorOxide, TDEFLFlush, compress_to_output
 use super::adler::Sum;
 use super::canvas::{Area, Canvas};
 use super::huffman::Bits;
-use super::piece::{Piece, count, filtered, splice};
+use super::piece::{Piece, Stretch, count, filtered, tell_band};
 use super::pixels::Plan;
 use super::png::{SIGNATURE, chunk, text_chunk};
-use super::print::Print;
+use super::print::{ByPrint, Print};
 use super::recent::Recent;
 use super::tiles::TILE;
 use super::tokens::{Counts, Table};
@@ -25,7 +25,11 @@ use crate::disk::Result;
 use crate::drawing::Drawing;
 
 /// Bytes of pieces, and of whole bands, that a thread keeps.
-const KEPT: usize = 3 << 20;
+const PIECES: usize = 10 << 20;
+const BANDS: usize = 2 << 20;
+
+/// Bytes for the names of tiles that have been there.
+const SEEN: usize = 1 << 20;
 
 /// What shrinks to less than this part of its size is no photo.
 const PHOTO: usize = 4;
@@ -35,7 +39,7 @@ pub struct ClipCoder {
     size: (u32, u32),
     channels: usize,
     table: Table,
-    still: HashMap<Print, Arc<Band>>,
+    still: ByPrint<Arc<Band>>,
     /// From the signature to where a frame's key goes.
     head: Vec<u8>,
 }
@@ -50,10 +54,12 @@ struct Band {
 pub struct FrameCoder<'a> {
     clip: &'a ClipCoder,
     painter: Painter,
-    pieces: Recent<Piece>,
-    bands: Recent<Band>,
+    pieces: Recent<Arc<Piece>>,
+    bands: Recent<Arc<Band>>,
     bits: Bits,
     data: Vec<u8>,
+    /// Tiles that have been told once and not kept.
+    seen: Recent<()>,
 }
 
 impl ClipCoder {
@@ -63,7 +69,7 @@ impl ClipCoder {
     /// When the size is none that can be painted.
     pub fn new(width: u32, height: u32, samples: &[Drawing]) -> Result<Self> {
         let mut painter = Painter::new(width, height)?;
-        let mut seen: HashMap<Print, u32> = HashMap::new();
+        let mut seen: ByPrint<u32> = ByPrint::default();
         let mut channels = 3;
         for drawing in samples {
             let plan = painter.plan(drawing);
@@ -73,7 +79,7 @@ impl ClipCoder {
             }
         }
         let mut counts = Counts::new();
-        let mut still = HashMap::new();
+        let mut still = ByPrint::default();
         for drawing in samples {
             let plan = painter.plan(drawing);
             painter.refresh(&plan, |_| true);
@@ -105,10 +111,11 @@ impl ClipCoder {
         Ok(FrameCoder {
             clip: self,
             painter,
-            pieces: Recent::new(KEPT),
-            bands: Recent::new(KEPT),
+            pieces: Recent::new(PIECES),
+            bands: Recent::new(BANDS),
             bits: Bits::default(),
             data: Vec::new(),
+            seen: Recent::new(SEEN),
         })
     }
 }
@@ -120,41 +127,60 @@ impl FrameCoder<'_> {
     /// # Errors
     /// When it cannot be encoded.
     pub fn encode(&mut self, drawing: &Drawing, key: &str) -> Result<Vec<u8>> {
-        let Self { clip, painter, pieces, bands, bits, data } = self;
+        let mut file = Vec::new();
+        self.encode_into(drawing, key, &mut file)?;
+        Ok(file)
+    }
+
+    /// The same, appended to `file`.
+    ///
+    /// # Errors
+    /// As for [`FrameCoder::encode`].
+    pub fn encode_into(&mut self, drawing: &Drawing, key: &str, file: &mut Vec<u8>) -> Result<()> {
+        let Self { clip, painter, pieces, bands, bits, data, seen } = self;
         let plan = painter.plan(drawing);
         if clip.channels == 3 && !plan.is_opaque() {
             // None of the samples was like this one.
-            return encode_png(&painter.paint(drawing), key);
+            file.extend(encode_png(&painter.paint(drawing), key)?);
+            return Ok(());
         }
-        let columns = painter.grid().columns;
+        let grid = painter.grid();
+        let columns = grid.columns;
         let prints: Vec<Print> = band_prints(&plan, columns).collect();
         let mut found: Vec<Option<Arc<Band>>> =
             prints.iter().map(|print| clip.still.get(print).cloned().or_else(|| bands.get(print))).collect();
-        let mut ready: Vec<Option<Arc<Piece>>> = vec![None; plan.prints.len()];
-        for (tile, piece) in ready.iter_mut().enumerate().filter(|(tile, _)| found[tile / columns].is_none()) {
-            *piece = pieces.get(&plan.prints[tile]);
+        let mut parts: Vec<Part> = Vec::with_capacity(64);
+        for row in (0..grid.rows).filter(|row| found[*row].is_none()) {
+            divide(&plan, row * columns..(row + 1) * columns, seen, pieces, &mut parts);
         }
-        let missing = |tile: usize| found[tile / columns].is_none() && ready[tile].is_none();
-        painter.refresh(&plan, missing);
-        let (grid, canvas) = (painter.grid(), painter.canvas());
-        for row in 0..grid.rows {
-            if found[row].is_some() {
-                continue;
-            }
-            let tiles = row * columns..(row + 1) * columns;
-            for tile in tiles.clone().filter(|tile| ready[*tile].is_none()).collect::<Vec<_>>() {
-                // Tiles that look alike, such as empty ones, are told once.
-                let print = plan.prints[tile];
-                let piece = pieces.get(&print).unwrap_or_else(|| {
-                    let piece = Arc::new(Piece::new(canvas, grid.tile(tile), clip.channels, &clip.table, bits));
+        let mut missing = vec![false; plan.prints.len()];
+        for part in parts.iter().filter(|part| part.piece.is_none()) {
+            missing[part.tiles.clone()].fill(true);
+        }
+        painter.refresh(&plan, |tile| missing[tile]);
+        let canvas = painter.canvas();
+        for part in &mut parts {
+            if let (None, Some(print)) = (&part.piece, part.keep) {
+                // Parts that look alike are told once.
+                part.piece = pieces.get(&print).or_else(|| {
+                    let piece = Piece::new(canvas, grid.run(part.tiles.clone()), clip.channels, &clip.table, bits);
+                    let piece = Arc::new(piece);
                     pieces.put(print, Arc::clone(&piece), piece.size());
-                    piece
+                    Some(piece)
                 });
-                ready[tile] = Some(piece);
             }
+        }
+        for of_row in parts.chunk_by(|a, b| a.tiles.start / columns == b.tiles.start / columns) {
+            let row = of_row[0].tiles.start / columns;
+            let stretches: Vec<Stretch> = of_row
+                .iter()
+                .map(|part| match &part.piece {
+                    Some(piece) => Stretch::Ready(piece),
+                    None => Stretch::New(grid.run(part.tiles.clone())),
+                })
+                .collect();
             let high = band_area(row, clip.size).height();
-            let pieces_of_row: Vec<&Piece> = ready[tiles].iter().flatten().map(Arc::as_ref).collect();
-            let sum = splice(&pieces_of_row, high, &clip.table, bits);
+            let sum = tell_band(canvas, &stretches, high, clip.channels, &clip.table, bits);
             data.clear();
             bits.drain_into(data);
             let band = Arc::new(Band::new(data, sum));
@@ -163,20 +189,62 @@ impl FrameCoder<'_> {
         }
         let all = || found.iter().flatten();
         let size = all().map(|b| b.chunk.len()).sum::<usize>();
-        let mut file = Vec::with_capacity(clip.head.len() + key.len() + size + 128);
+        file.reserve(clip.head.len() + key.len() + size + 128);
         file.extend_from_slice(&clip.head);
         if !key.is_empty() {
-            text_chunk(&mut file, key);
+            text_chunk(file, key);
         }
         // The two bytes of zlib: a window of 32 kB, compressed fast.
-        chunk(&mut file, *b"IDAT", &[0x78, 0x01]);
+        chunk(file, *b"IDAT", &[0x78, 0x01]);
         all().for_each(|band| file.extend_from_slice(&band.chunk));
         let sum = all().fold(Sum::default(), |sum, band| sum.then(band.sum));
         // An empty block ends it.
         let [a, b, c, d] = sum.value().to_be_bytes();
-        chunk(&mut file, *b"IDAT", &[3, 0, a, b, c, d]);
-        chunk(&mut file, *b"IEND", &[]);
-        Ok(file)
+        chunk(file, *b"IDAT", &[3, 0, a, b, c, d]);
+        chunk(file, *b"IEND", &[]);
+        Ok(())
+    }
+}
+
+/// Tiles of a row that are told together.
+struct Part {
+    tiles: Range<usize>,
+    piece: Option<Arc<Piece>>,
+    /// What they are kept by when they have been told; none where they move on.
+    keep: Option<Print>,
+}
+
+/// Divides a row of tiles: what no moving thing touches is one part, up to the next moving thing; a tile that has been
+/// there before is one; and tiles that are new are one that is told and forgotten, for most never come again.
+fn divide(plan: &Plan, row: Range<usize>, seen: &mut Recent<()>, pieces: &mut Recent<Arc<Piece>>, parts: &mut Vec<Part>) {
+    let (mut tile, end) = (row.start, row.end);
+    let is_still = |tile: usize| plan.prints[tile] == plan.still_prints[tile];
+    let mut open = false;
+    while tile < end {
+        let start = tile;
+        if is_still(tile) {
+            let mut print = Print::START;
+            while tile < end && is_still(tile) {
+                print.print(plan.prints[tile]);
+                tile += 1;
+            }
+            parts.push(Part { tiles: start..tile, piece: pieces.get(&print), keep: Some(print) });
+            open = false;
+            continue;
+        }
+        tile += 1;
+        let print = plan.prints[start];
+        let piece = pieces.get(&print);
+        if piece.is_some() || seen.again(print) {
+            parts.push(Part { tiles: start..tile, piece, keep: Some(print) });
+            open = false;
+            continue;
+        }
+        match parts.last_mut() {
+            Some(part) if open => part.tiles.end = tile,
+            _ => parts.push(Part { tiles: start..tile, piece: None, keep: None }),
+        }
+        open = true;
     }
 }
 

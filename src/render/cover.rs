@@ -56,12 +56,18 @@ impl Cover {
     }
 
     /// Adds one edge; returns the first and last row that it touched.
+    #[inline]
     fn edge(&mut self, edge: &Edge, frame: Frame) -> Option<(i32, i32)> {
         let area = frame.area;
-        let first = (edge.y0 >> BITS).max(area.y0);
-        let last = ((edge.y1 - 1) >> BITS).min(area.y1 - 1);
+        let (top, bottom) = (edge.y0 >> BITS, (edge.y1 - 1) >> BITS);
+        let (first, last) = (top.max(area.y0), bottom.min(area.y1 - 1));
         if edge.y0 == edge.y1 || first > last || edge.x0.min(edge.x1) >= area.x1 << BITS {
             return None;
+        }
+        if top == bottom {
+            // Most are short, and lie in one row.
+            self.piece(top, edge.x0, edge.x1, (edge.y1 - edge.y0) * edge.down, frame);
+            return Some((top, top));
         }
         if edge.x0.max(edge.x1) <= area.x0 << BITS {
             // All to the left: whole pixels are covered from here on.
@@ -73,7 +79,7 @@ impl Cover {
         }
         // The place on the edge at a height: always from the edge's own ends, so that it is the same in every tile.
         let slope = f64::from(edge.x1 - edge.x0) / f64::from(edge.y1 - edge.y0);
-        let at = |y: i32| edge.x0 + (f64::from(y - edge.y0) * slope) as i32;
+        let at = |y: i32| edge.x0 + whole(f64::from(y - edge.y0) * slope);
         let mut y_from = edge.y0.max(first << BITS);
         let mut from = if y_from == edge.y0 { edge.x0 } else { at(y_from) };
         for y in first..=last {
@@ -102,9 +108,9 @@ impl Cover {
             self.add(y, frame.area.x0, high * 2 * ONE, frame);
             return;
         }
-        // The height reached at a pixel's side, rounded the same way whichever way the outline runs.
-        let rate = f64::from(high.abs()) / f64::from(right - left);
-        let reached = |x: i32| (f64::from(x - left) * rate) as i32 * high.signum();
+        // The height reached at a pixel's side.
+        let rate = f64::from(high) / f64::from(right - left);
+        let reached = |x: i32| whole(f64::from(x - left) * rate);
         let (mut x, mut done, mut cell) = (left, 0, cell);
         if left < side {
             done = reached(side);
@@ -168,6 +174,12 @@ impl Cover {
             span(y, frame.area.x0 + from as i32, frame.area.x1, cover);
         }
     }
+}
+
+/// The nearest whole number, below 2^31 either way: the sum's last bits are it.
+#[inline]
+fn whole(v: f64) -> i32 {
+    (v + 6_755_399_441_055_744.0).to_bits() as i32
 }
 
 /// A sum as 0 to 255. Where an outline lies over itself it covers once.

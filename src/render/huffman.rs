@@ -3,52 +3,59 @@
 /// Bits one after another, the lowest of a byte first.
 #[derive(Debug, Default)]
 pub(super) struct Bits {
-    words: Vec<u32>,
+    words: Vec<u64>,
     open: u64,
+    /// How many of `open` are meant: always less than 64.
     count: u32,
 }
 
 impl Bits {
-    /// Appends the lowest `count` bits, at most 32; the others must be 0.
+    /// Appends the lowest `count` bits, at most 56; the others must be 0.
     #[inline]
     pub(super) fn put(&mut self, bits: u64, count: u32) {
         self.open |= bits << self.count;
-        self.count += count;
-        if self.count >= 32 {
-            self.words.push(self.open as u32);
-            self.open >>= 32;
-            self.count -= 32;
+        let all = self.count + count;
+        if all < 64 {
+            self.count = all;
+        } else {
+            self.words.push(self.open);
+            // At least 8 were there before, so that less than a word is left.
+            self.open = bits >> (64 - self.count);
+            self.count = all - 64;
         }
     }
 
     /// How many there are.
     pub(super) fn len(&self) -> usize {
-        32 * self.words.len() + self.count as usize
+        64 * self.words.len() + self.count as usize
     }
 
     /// Appends `count` bits of whole words.
     #[inline]
-    pub(super) fn append(&mut self, words: &[u32], count: usize) {
-        let (whole, rest) = (count / 32, (count % 32) as u32);
+    pub(super) fn append(&mut self, words: &[u64], count: usize) {
+        let (whole, rest) = (count / 64, (count % 64) as u32);
         if self.count == 0 {
             self.words.extend_from_slice(&words[..whole]);
         } else {
             self.words.extend(words[..whole].iter().map(|word| {
-                self.open |= u64::from(*word) << self.count;
-                let full = self.open as u32;
-                self.open >>= 32;
+                let full = self.open | word << self.count;
+                self.open = word >> (64 - self.count);
                 full
             }));
         }
-        if rest > 0 {
-            self.put(u64::from(words[whole]), rest);
+        if rest > 32 {
+            self.put(words[whole] & 0xFFFF_FFFF, 32);
+            self.put(words[whole] >> 32, rest - 32);
+        } else if rest > 0 {
+            self.put(words[whole], rest);
         }
     }
 
     /// Appends zeros up to the next whole word.
     pub(super) fn fill_word(&mut self) {
         if self.count > 0 {
-            self.put(0, 32 - self.count);
+            self.words.push(self.open);
+            (self.open, self.count) = (0, 0);
         }
     }
 
@@ -58,14 +65,15 @@ impl Bits {
     }
 
     /// All words; bits beyond the last whole one are not among them.
-    pub(super) fn words(&self) -> &[u32] {
+    pub(super) fn words(&self) -> &[u64] {
         &self.words
     }
 
     /// Gives all of them, which are whole bytes, to `file`, and starts anew.
     pub(super) fn drain_into(&mut self, file: &mut Vec<u8>) {
-        file.extend(self.words.iter().flat_map(|word| word.to_le_bytes()));
-        file.extend_from_slice(&(self.open as u32).to_le_bytes()[..(self.count / 8) as usize]);
+        file.reserve(8 * self.words.len() + 8);
+        self.words.iter().for_each(|word| file.extend_from_slice(&word.to_le_bytes()));
+        file.extend_from_slice(&self.open.to_le_bytes()[..(self.count / 8) as usize]);
         self.clear();
     }
 
@@ -158,7 +166,7 @@ mod tests {
     fn bits_are_appended_where_the_last_ended() {
         let mut bits = Bits::default();
         bits.put(0b101, 3);
-        bits.append(&[0xDEAD_BEEF, 0x3], 34);
+        bits.append(&[0x3_DEAD_BEEF], 34);
         assert_eq!(bits.len(), 37);
         bits.fill_byte();
         let mut bytes = Vec::new();
@@ -166,5 +174,30 @@ mod tests {
         let all = bytes.iter().rev().fold(0_u64, |all, b| all << 8 | u64::from(*b));
         assert_eq!((all, bytes.len()), (0b101 | 0x3_DEAD_BEEF << 3, 5));
         assert_eq!(bits.len(), 0);
+    }
+
+    proptest! {
+        #[test]
+        fn bits_come_out_as_they_were_put_in(
+            parts in prop::collection::vec((0_u64..1 << 56, 0_u32..=56, prop::bool::ANY), 0..60),
+        ) {
+            let (mut bits, mut wanted) = (Bits::default(), Vec::new());
+            for (value, count, as_words) in parts {
+                let value = value & ((1 << count) - 1);
+                if as_words {
+                    bits.append(&[value.rotate_left(7), value], 64 + count as usize);
+                    wanted.extend((0..64).map(|i| value.rotate_left(7) >> i & 1));
+                } else {
+                    bits.put(value, count);
+                }
+                wanted.extend((0..count).map(|i| value >> i & 1));
+            }
+            prop_assert_eq!(bits.len(), wanted.len());
+            bits.fill_byte();
+            let mut bytes = Vec::new();
+            bits.drain_into(&mut bytes);
+            prop_assert_eq!(bytes.len(), wanted.len().div_ceil(8));
+            prop_assert!(wanted.iter().enumerate().all(|(i, bit)| u64::from(bytes[i / 8]) >> (i % 8) & 1 == *bit));
+        }
     }
 }

@@ -10,7 +10,7 @@ use super::raster::Sampler;
 use super::tiles::{Grid, Touch};
 use super::{FontFile, TOLERANCE, text_outline, text_width};
 use crate::drawing::{Anchor, Colour, Glow, Item, Text};
-use crate::geometry::{Affine, BezPath, Point, Shape as _, Vec2, outline};
+use crate::geometry::{Affine, BezPath, PathEl, Point, Shape as _, Vec2, outline};
 
 /// A thing ready to be painted.
 pub(super) struct Leaf {
@@ -46,39 +46,18 @@ pub(super) enum Shape {
 
 /// A part of a drawing, back to front: one thing of this drawing alone, or things that many have in common.
 pub(super) enum Part {
-    One(Leaf),
+    One(Arc<Leaf>),
     Kept(Print, Arc<[Leaf]>),
 }
 
 impl Leaf {
-    /// Makes a thing ready that is neither shared nor a group without a clip.
-    pub(super) fn new(item: &Item, place: Affine, font: Option<&FontFile>) -> Self {
-        let mut print = Print::START;
+    /// Makes a thing ready that is neither shared nor a group without a clip. `print` is that of [`print_of`].
+    pub(super) fn new(item: &Item, print: Print, place: Affine, font: Option<&FontFile>) -> Self {
         let shape = shape(item, place, font);
         let bounds = match &shape {
             Shape::Nothing => Area::NONE,
-            Shape::Fill { edges, pixel } => {
-                print.word(u64::from(*pixel));
-                edges.print(&mut print);
-                edges.bounds()
-            }
-            Shape::Glow { to_disc, colour } => {
-                print.word(u64::from(u32::from_be_bytes([colour.r, colour.g, colour.b, colour.a])) << 32 | 1);
-                print.numbers(&to_disc.as_coeffs());
-                disc_bounds(to_disc.inverse())
-            }
-            Shape::Clipped { edges, leaves } => {
-                print.word(2 << 32);
-                edges.print(&mut print);
-                leaves.iter().for_each(|leaf| print.print(leaf.print));
-                edges.bounds()
-            }
-            Shape::Picture { edges, sampler } => {
-                print.word(3 << 32);
-                edges.print(&mut print);
-                sampler.print(&mut print);
-                edges.bounds()
-            }
+            Shape::Glow { to_disc, .. } => disc_bounds(to_disc.inverse()),
+            Shape::Fill { edges, .. } | Shape::Clipped { edges, .. } | Shape::Picture { edges, .. } => edges.bounds(),
         };
         Self { bounds, print, shape, touched: OnceLock::new() }
     }
@@ -98,8 +77,79 @@ impl Leaf {
 /// The things of `items` moved by `place`, all made ready.
 pub(super) fn leaves(items: &[Item], place: Affine, font: Option<&FontFile>) -> Vec<Leaf> {
     let mut all = Vec::with_capacity(items.len());
-    single(items, place, &mut |item, place| all.push(Leaf::new(item, place, font)));
+    single(items, place, &mut |item, place| all.push(Leaf::new(item, print_of(item, place), place, font)));
     all
+}
+
+/// All that a thing at a place looks like, but for the font of its texts.
+pub(super) fn print_of(item: &Item, place: Affine) -> Print {
+    let mut print = Print::START;
+    print.numbers(&place.as_coeffs());
+    put(item, &mut print);
+    print
+}
+
+fn put(item: &Item, print: &mut Print) {
+    let colour = |print: &mut Print, kind: u64, c: Colour| {
+        print.word(kind << 32 | u64::from(u32::from_be_bytes([c.r, c.g, c.b, c.a])));
+    };
+    match item {
+        Item::Area(area) => {
+            colour(print, 1, area.colour);
+            path(&area.path, print);
+        }
+        Item::Ink(ink) => {
+            colour(print, 2, ink.colour);
+            for stroke in &ink.strokes {
+                print.word(stroke.0.len() as u64);
+                stroke.0.iter().for_each(|knot| print.numbers(&[knot.x, knot.y, knot.w]));
+            }
+        }
+        Item::Text(text) => {
+            colour(print, 3 + ((text.anchor as u64) << 8), text.colour);
+            print.numbers(&[text.at.x, text.at.y, text.size]);
+            print.word(text.text.len() as u64);
+            text.text.bytes().for_each(|b| print.word(b.into()));
+        }
+        Item::Glow(glow) => {
+            colour(print, 4, glow.colour);
+            print.numbers(&[glow.at.x, glow.at.y, glow.radii.x, glow.radii.y]);
+        }
+        Item::Group(group) => {
+            print.word(5 << 32 | u64::from(group.clip.is_some()));
+            print.numbers(&group.transform.as_coeffs());
+            group.clip.iter().for_each(|clip| path(clip, print));
+            print.word(group.items.len() as u64);
+            group.items.iter().for_each(|item| put(item, print));
+        }
+        Item::Shared(shared) => {
+            print.word(6 << 32);
+            print.word(shared.fingerprint());
+        }
+        Item::Picture(raster) => {
+            print.word(7 << 32);
+            print.numbers(&raster.place().as_coeffs());
+            print.word((raster.width() as u64) << 32 | raster.height() as u64);
+            for eight in raster.rgba().chunks(8) {
+                print.word(eight.iter().fold(0, |word, byte| word << 8 | u64::from(*byte)));
+            }
+        }
+    }
+}
+
+fn path(path: &BezPath, print: &mut Print) {
+    print.word(path.elements().len() as u64);
+    for element in path.elements() {
+        let (kind, points): (u64, &[Point]) = match element {
+            PathEl::MoveTo(a) => (1, &[*a]),
+            PathEl::LineTo(a) => (2, &[*a]),
+            PathEl::QuadTo(a, b) => (3, &[*a, *b]),
+            PathEl::CurveTo(a, b, c) => (4, &[*a, *b, *c]),
+            PathEl::ClosePath => (5, &[]),
+        };
+        print.word(kind);
+        points.iter().for_each(|p| print.numbers(&[p.x, p.y]));
+    }
 }
 
 /// Calls `each` for everything in `items` that is one thing: shared things and groups without a clip are opened.

@@ -1,14 +1,12 @@
 //! A drawing as pixels. The picture is cut into tiles, and a tile whose things are those of before is not painted again:
 //! a still face stays, and of a talking one only the mouth is new. Every pixel is the same as if all were painted.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::canvas::{Area, Canvas, Pixel, pixel_of, straight};
-use super::cover::Cover;
-use super::leaf::{Leaf, Part, leaves};
-use super::paint::paint;
-use super::print::Print;
+use super::leaf::{Leaf, Part, leaves, print_of};
+use super::paint::{Room, paint};
+use super::print::{ByPrint, Print};
 use super::tiles::Grid;
 use super::{FontFile, MAX_SIDE};
 use crate::disk::{Fault, Result};
@@ -44,14 +42,21 @@ pub struct Painter {
     height: u32,
     grid: Grid,
     font: Option<FontFile>,
-    cover: Cover,
-    /// Shared things made ready, those of the last drawing.
-    kept: HashMap<Print, Arc<[Leaf]>>,
+    room: Room,
+    /// What was made ready for the last drawing.
+    ready: Ready,
     still_print: Option<Print>,
     still_prints: Arc<[Print]>,
     /// The still layers alone.
     still: Sheet,
     whole: Sheet,
+}
+
+/// Things made ready, alone and those that drawings share.
+#[derive(Default)]
+struct Ready {
+    alone: ByPrint<Arc<Leaf>>,
+    shared: ByPrint<Arc<[Leaf]>>,
 }
 
 /// A canvas and what is on each of its tiles.
@@ -65,7 +70,8 @@ pub(super) struct Plan {
     background: Pixel,
     still: Vec<Part>,
     moving: Vec<Part>,
-    still_prints: Arc<[Print]>,
+    /// The same of the still layers alone.
+    pub(super) still_prints: Arc<[Print]>,
     pub(super) prints: Vec<Print>,
 }
 
@@ -100,8 +106,8 @@ impl Painter {
             height,
             grid,
             font: None,
-            cover: Cover::default(),
-            kept: HashMap::new(),
+            room: Room::default(),
+            ready: Ready::default(),
             still_print: None,
             still_prints: Arc::new([]),
             still: Sheet::new(grid, area),
@@ -114,7 +120,7 @@ impl Painter {
     pub fn with_font(self, font: Option<FontFile>) -> Self {
         let area = self.whole.canvas.area();
         let (still, whole) = (Sheet::new(self.grid, area), Sheet::new(self.grid, area));
-        Self { font, kept: HashMap::new(), still_print: None, still, whole, ..self }
+        Self { font, ready: Ready::default(), still_print: None, still, whole, ..self }
     }
 
     /// Paints one drawing.
@@ -167,10 +173,10 @@ impl Painter {
         let place = fit(drawing.view, frame);
         let count = drawing.layers.iter().take_while(|l| l.name == "static").count();
         let (still, moving) = drawing.layers.split_at(count);
-        let mut kept = HashMap::new();
-        let still = self.parts(still, place, &mut kept);
-        let moving = self.parts(moving, place, &mut kept);
-        self.kept = kept;
+        let mut now = Ready::default();
+        let still = self.parts(still, place, &mut now);
+        let moving = self.parts(moving, place, &mut now);
+        self.ready = now;
 
         let background = drawing.background.map_or(0, |c| pixel_of([c.r, c.g, c.b, c.a]));
         let mut still_print = Print::START;
@@ -192,48 +198,55 @@ impl Painter {
         Plan { background, still, moving, still_prints: Arc::clone(&self.still_prints), prints }
     }
 
-    fn parts(&self, layers: &[Layer], place: Affine, kept: &mut HashMap<Print, Arc<[Leaf]>>) -> Vec<Part> {
+    fn parts(&self, layers: &[Layer], place: Affine, now: &mut Ready) -> Vec<Part> {
         let mut parts = Vec::with_capacity(64);
         for item in layers.iter().flat_map(|l| &l.items) {
-            self.part(item, place, kept, &mut parts);
+            self.part(item, place, now, &mut parts);
         }
         parts
     }
 
-    fn part(&self, item: &Item, place: Affine, kept: &mut HashMap<Print, Arc<[Leaf]>>, parts: &mut Vec<Part>) {
+    fn part(&self, item: &Item, place: Affine, now: &mut Ready, parts: &mut Vec<Part>) {
         match item {
             Item::Shared(shared) => {
                 let mut print = Print::START;
                 print.numbers(&place.as_coeffs());
                 print.word(shared.fingerprint());
                 let ready = || {
-                    let old = self.kept.get(&print).cloned();
+                    let old = self.ready.shared.get(&print).cloned();
                     old.unwrap_or_else(|| leaves(shared.items(), place, self.font.as_ref()).into())
                 };
-                parts.push(Part::Kept(print, Arc::clone(kept.entry(print).or_insert_with(ready))));
+                parts.push(Part::Kept(print, Arc::clone(now.shared.entry(print).or_insert_with(ready))));
             }
             Item::Group(group) if group.clip.is_none() => {
                 let place = place * group.transform;
-                group.items.iter().for_each(|item| self.part(item, place, kept, parts));
+                group.items.iter().for_each(|item| self.part(item, place, now, parts));
             }
-            _ => parts.push(Part::One(Leaf::new(item, place, self.font.as_ref()))),
+            _ => {
+                let print = print_of(item, place);
+                let ready = || match self.ready.alone.get(&print) {
+                    Some(leaf) => Arc::clone(leaf),
+                    None => Arc::new(Leaf::new(item, print, place, self.font.as_ref())),
+                };
+                parts.push(Part::One(Arc::clone(now.alone.entry(print).or_insert_with(ready))));
+            }
         }
     }
 
     /// Brings those tiles up to date that `wanted` says. Returns what was painted.
     pub(super) fn refresh(&mut self, plan: &Plan, wanted: impl Fn(usize) -> bool) -> Vec<Area> {
-        let Self { grid, cover, still, whole, .. } = self;
+        let Self { grid, room, still, whole, .. } = self;
         let blocks = grid.blocks(|i| wanted(i) && whole.prints[i] != Some(plan.prints[i]));
         // A block may hold a tile that is right already: it is painted again, to the same pixels.
         let inside = |blocks: &[Area], i: usize| blocks.iter().any(|b| !b.meet(grid.tile(i)).is_empty());
         let blocks_below = grid.blocks(|i| still.prints[i] != Some(plan.still_prints[i]) && inside(&blocks, i));
         for block in &blocks_below {
             still.canvas.fill(*block, plan.background);
-            paint_parts(&mut still.canvas, &plan.still, *block, cover);
+            paint_parts(&mut still.canvas, &plan.still, *block, room);
         }
         for block in &blocks {
             whole.canvas.copy_from(&still.canvas, *block);
-            paint_parts(&mut whole.canvas, &plan.moving, *block, cover);
+            paint_parts(&mut whole.canvas, &plan.moving, *block, room);
         }
         for i in 0..grid.len() {
             if inside(&blocks_below, i) {
@@ -247,11 +260,11 @@ impl Painter {
     }
 }
 
-fn paint_parts(canvas: &mut Canvas, parts: &[Part], within: Area, cover: &mut Cover) {
+fn paint_parts(canvas: &mut Canvas, parts: &[Part], within: Area, room: &mut Room) {
     for part in parts {
         match part {
-            Part::One(leaf) => paint(canvas, leaf, within, cover),
-            Part::Kept(_, leaves) => leaves.iter().for_each(|leaf| paint(canvas, leaf, within, cover)),
+            Part::One(leaf) => paint(canvas, leaf, within, room),
+            Part::Kept(_, leaves) => leaves.iter().for_each(|leaf| paint(canvas, leaf, within, room)),
         }
     }
 }

@@ -1,5 +1,29 @@
 //! 128 bits that tell what is painted: equal ones mean equal pixels.
 
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// Things by their prints.
+pub(super) type ByPrint<T> = HashMap<Print, T, BuildHasherDefault<AsItIs>>;
+
+/// A print is as even as a hash can be, and is not hashed again.
+#[derive(Default)]
+pub(super) struct AsItIs(u64);
+
+impl Hasher for AsItIs {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|b| self.write_u64(u64::from(*b)));
+    }
+
+    fn write_u64(&mut self, word: u64) {
+        self.0 = self.0.rotate_left(32) ^ word;
+    }
+}
+
 /// 128 bits of all numbers that have been put in, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Print(u64, u64);

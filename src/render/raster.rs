@@ -1,7 +1,6 @@
 //! Pictures of pixels inside drawings: painted with as many pixels as can be seen, or carried whole as a PNG.
 
 use super::canvas::Pixel;
-use super::print::Print;
 use crate::drawing::Raster;
 use crate::geometry::{Affine, Point};
 
@@ -33,15 +32,6 @@ impl Sampler {
         let back = (place * Affine::scale_non_uniform(across as f64, down as f64)).inverse();
         let (width, height) = (raster.width().div_ceil(across), raster.height().div_ceil(down));
         Some(Self { pixels, width, height, back: Affine::translate((-0.5, -0.5)) * back })
-    }
-
-    /// Puts all that it shows into a print.
-    pub(super) fn print(&self, print: &mut Print) {
-        print.numbers(&self.back.as_coeffs());
-        print.word((self.width as u64) << 32 | self.height as u64);
-        for pair in self.pixels.chunks(2) {
-            print.word(pair.iter().fold(0, |word, p| word << 32 | u64::from(*p)));
-        }
     }
 
     /// What is seen at the middle of a pixel of the picture: between the four pixels round it, in proportion; the

@@ -1,34 +1,31 @@
 //! What was made lately, within so many bytes.
 
-use std::collections::HashMap;
-use std::sync::Arc;
-
-use super::print::Print;
+use super::print::{ByPrint, Print};
 
 /// Things by their prints. When the newer half of the room is full the older half is given up; what is asked for
 /// becomes new.
 pub(super) struct Recent<T> {
-    new: HashMap<Print, (Arc<T>, usize)>,
-    old: HashMap<Print, (Arc<T>, usize)>,
+    new: ByPrint<(T, usize)>,
+    old: ByPrint<(T, usize)>,
     bytes: usize,
     room: usize,
 }
 
-impl<T> Recent<T> {
+impl<T: Clone> Recent<T> {
     pub(super) fn new(room: usize) -> Self {
-        Self { new: HashMap::new(), old: HashMap::new(), bytes: 0, room }
+        Self { new: ByPrint::default(), old: ByPrint::default(), bytes: 0, room }
     }
 
-    pub(super) fn get(&mut self, print: &Print) -> Option<Arc<T>> {
+    pub(super) fn get(&mut self, print: &Print) -> Option<T> {
         if let Some((thing, _)) = self.new.get(print) {
-            return Some(Arc::clone(thing));
+            return Some(thing.clone());
         }
         let (thing, bytes) = self.old.remove(print)?;
-        self.put(*print, Arc::clone(&thing), bytes);
+        self.put(*print, thing.clone(), bytes);
         Some(thing)
     }
 
-    pub(super) fn put(&mut self, print: Print, thing: Arc<T>, bytes: usize) {
+    pub(super) fn put(&mut self, print: Print, thing: T, bytes: usize) {
         // What the table itself takes of each.
         let bytes = bytes + 48;
         if self.bytes + bytes > self.room / 2 {
@@ -37,6 +34,17 @@ impl<T> Recent<T> {
         }
         self.bytes += bytes;
         self.new.insert(print, (thing, bytes - 48));
+    }
+}
+
+impl Recent<()> {
+    /// Whether it has been asked for lately.
+    pub(super) fn again(&mut self, print: Print) -> bool {
+        let again = self.get(&print).is_some();
+        if !again {
+            self.put(print, (), 0);
+        }
+        again
     }
 }
 
@@ -53,8 +61,8 @@ mod tests {
             print
         };
         for n in 0..1000 {
-            recent.put(print(n), Arc::new(n), 1000);
-            assert_eq!(recent.get(&print(0)).as_deref(), Some(&0));
+            recent.put(print(n), n, 1000);
+            assert_eq!(recent.get(&print(0)), Some(0));
             assert!(recent.new.len() + recent.old.len() <= 10);
         }
         assert!(recent.get(&print(500)).is_none());

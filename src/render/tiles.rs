@@ -42,6 +42,12 @@ impl Grid {
         self.block(column..column + 1, row..row + 1)
     }
 
+    /// The pixels of tiles that lie side by side.
+    pub(super) fn run(self, tiles: std::ops::Range<usize>) -> Area {
+        let (row, first) = (tiles.start / self.columns, tiles.start % self.columns);
+        self.block(first..first + tiles.len(), row..row + 1)
+    }
+
     /// The pixels of neighbouring tiles.
     fn block(self, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> Area {
         let at = |i: usize, size: i32| i as i32 * size;

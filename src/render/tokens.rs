@@ -58,11 +58,22 @@ pub(super) trait Sink {
     fn zeros(&mut self, count: usize);
     /// The pixel before again, so many bytes of it, as many at a time.
     fn again(&mut self, count: usize);
+
+    /// Three bytes.
+    #[inline]
+    fn three(&mut self, bytes: [u8; 3]) {
+        bytes.into_iter().for_each(|byte| self.byte(byte));
+    }
+
+    /// A run of zeros of any length.
+    #[inline]
+    fn gap(&mut self, count: usize) {
+        tell_zeros(self, count);
+    }
 }
 
 /// Tells a run of zeros of any length.
-#[inline]
-pub(super) fn tell_zeros(sink: &mut impl Sink, count: usize) {
+fn tell_zeros(sink: &mut (impl Sink + ?Sized), count: usize) {
     if count == 0 {
         return;
     }
@@ -111,8 +122,10 @@ pub(super) struct Table {
     /// A run of so many, with its distance: of zeros, and of pixels.
     zeros: Vec<(u32, u8)>,
     again: Vec<(u32, u8)>,
+    /// A zero and the zeros after it, all as one; from 0 of them on.
+    gaps: Vec<(u64, u8)>,
     /// In whole words, and how many bits of them are meant.
-    header: (Box<[u32]>, usize),
+    header: (Box<[u64]>, usize),
 }
 
 impl Table {
@@ -136,10 +149,20 @@ impl Table {
         let runs = |distance: Code| (0..=LONGEST).map(|n| run(n, distance)).collect();
         let mut bytes = [Code::default(); 256];
         bytes.copy_from_slice(&all[..256]);
+        let zeros: Vec<(u32, u8)> = runs(distance_codes[0]);
+        let gap = |count: usize| match count {
+            0 => (0, 0),
+            1..4 => (0..count as u8).fold((0, 0), |(bits, n), _| (bits | u64::from(bytes[0].bits) << n, n + bytes[0].count)),
+            _ => {
+                let (bits, n) = zeros[count - 1];
+                (u64::from(bytes[0].bits) | u64::from(bits) << bytes[0].count, bytes[0].count + n)
+            }
+        };
         Self {
             bytes,
             end: all[END],
-            zeros: runs(distance_codes[0]),
+            gaps: (0..=LONGEST + 1).map(gap).collect(),
+            zeros,
             again: runs(distance_codes[channels - 1]),
             header: header(&lengths_of_all, &distances),
         }
@@ -185,10 +208,27 @@ impl Sink for Coded<'_> {
         let (bits, length) = self.table.again[count];
         self.bits.put(u64::from(bits), u32::from(length));
     }
+
+    #[inline]
+    fn three(&mut self, bytes: [u8; 3]) {
+        // No code has more than 14 bits.
+        let [a, b, c] = bytes.map(|byte| self.table.bytes[usize::from(byte)]);
+        let two = u64::from(a.bits) | u64::from(b.bits) << a.count;
+        let count = u32::from(a.count + b.count);
+        self.bits.put(two | u64::from(c.bits) << count, count + u32::from(c.count));
+    }
+
+    #[inline]
+    fn gap(&mut self, count: usize) {
+        match self.table.gaps.get(count) {
+            Some((bits, length)) => self.bits.put(*bits, u32::from(*length)),
+            None => tell_zeros(self, count),
+        }
+    }
 }
 
 /// The start of a block of such codes (RFC 1951, 3.2.7): the lengths, themselves in codes.
-fn header(symbols: &[u8], distances: &[u8]) -> (Box<[u32]>, usize) {
+fn header(symbols: &[u8], distances: &[u8]) -> (Box<[u64]>, usize) {
     const ORDER: [usize; 19] = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
     let all: Vec<u8> = symbols.iter().chain(distances).copied().collect();
     // A length, or the length before three to six times more.

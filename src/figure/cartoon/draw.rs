@@ -11,6 +11,15 @@ use crate::pose::Pose;
 
 /// A chin that has come down by less than this, in face units, rests.
 const RESTS: f64 = 0.05;
+/// Chin and jaw come down in steps of so many face units, a sixth of a pixel in a picture 720 high: nobody sees them,
+/// and frames whose mouths differ have the outline below in common.
+const STEP: f64 = 0.125;
+
+/// The nearest move in whole steps.
+fn stepped(by: Vec2) -> Vec2 {
+    let whole = |v: f64| (v / STEP).round() * STEP;
+    Vec2::new(whole(by.x), whole(by.y))
+}
 
 impl Cartoon {
     /// The drawing of a pose: what stays the same on the layer `static`, what moves on `dynamic`. While the head rests,
@@ -22,6 +31,10 @@ impl Cartoon {
         // The chin comes down from where it rests and never rises above it: under it is the still face's.
         let (chin, rest) = (P::P2_1, self.neutral.points()[P::P2_1]);
         face.points[chin].y = face.points[chin].y.max(rest.y);
+        for moved in [chin, P::P2_14, P::P2_13] {
+            let rest = self.neutral.points()[moved];
+            face.points[moved] = rest + stepped(face.points[moved] - rest);
+        }
         let dropped = face.points[chin].y > rest.y + RESTS;
         let turned = face.head != Affine::IDENTITY;
         let outline = self.head.outline(&face.points);
