@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use chromium::{Chromium, Tab, from_base64};
-use lianpu::export::{Format, Job, Request, plan, wholes, write_wholes};
+use lianpu::export::{Format, Job, Ledger, Request, Shard, plan};
 use lianpu::project::Lesson;
 use lianpu::render::{Painter, Picture};
 
@@ -51,8 +51,8 @@ fn lesson() -> (tempfile::TempDir, Lesson) {
 fn export(folder: &Path, lesson: &Lesson, format: Format, thesis: bool) -> PathBuf {
     let out = folder.join("out 課 #1");
     let request = Request { out: Some(out.clone()), thesis, ..Request::new(vec![format]) };
-    let all = wholes(lesson, &request).unwrap();
-    write_wholes(lesson, &request, &all, &mut |_, _| {}, &AtomicBool::new(false)).unwrap();
+    let mut ledger = Ledger::open(&out, Shard::WHOLE);
+    lianpu::export::export(lesson, &request, &mut ledger, &|_| {}, &AtomicBool::new(false)).unwrap();
     out
 }
 
@@ -172,7 +172,10 @@ fn keys(tab: &mut Tab<'_>) {
     tab.wait(PLAYING);
     tab.wait(&format!("!{PLAYING}"));
     let ends = "[...document.querySelectorAll('[data-to]')].map(e => +e.dataset.to)";
-    let rest = number(tab, &format!("Math.min(...{ends}.map(t => Math.abs(t - document.querySelector('audio').currentTime)))"));
+    let rest = number(
+        tab,
+        &format!("Math.min(...{ends}.map(t => Math.abs(t - document.querySelector('audio').currentTime)))"),
+    );
     assert!(rest < 0.05, "it rests {rest} s from the end of a syllable");
     // The mouth alone, at once where motion is to be little.
     let picture = "document.querySelector('canvas').toDataURL()";
@@ -253,7 +256,9 @@ fn animated_svg_shows_what_the_frames_show() {
             assert_alike(&painter.paint(&job.drawing(frame)), &tab.seen(), &what);
         }
         // Its clock goes with the sound.
-        tab.eval("document.querySelector('audio').currentTime = 0; document.querySelector('audio').play().then(() => true)");
+        tab.eval(
+            "document.querySelector('audio').currentTime = 0; document.querySelector('audio').play().then(() => true)",
+        );
         tab.wait("document.querySelector('audio').currentTime > 0.3");
         let apart = number(
             &mut tab,

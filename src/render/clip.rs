@@ -216,7 +216,13 @@ struct Part {
 
 /// Divides a row of tiles: what no moving thing touches is one part, up to the next moving thing; a tile that has been
 /// there before is one; and tiles that are new are one that is told and forgotten, for most never come again.
-fn divide(plan: &Plan, row: Range<usize>, seen: &mut Recent<()>, pieces: &mut Recent<Arc<Piece>>, parts: &mut Vec<Part>) {
+fn divide(
+    plan: &Plan,
+    row: Range<usize>,
+    seen: &mut Recent<()>,
+    pieces: &mut Recent<Arc<Piece>>,
+    parts: &mut Vec<Part>,
+) {
     let (mut tile, end) = (row.start, row.end);
     let is_still = |tile: usize| plan.prints[tile] == plan.still_prints[tile];
     let mut open = false;
