@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::Path;
 
-use super::{Fault, Result};
+use super::{Fault, Result, temporary_in};
 
 /// Puts `bytes` at `path`, making its folder where it is missing: a temporary file beside it, flush, fsync, rename,
 /// fsync of the folder. A reader sees the old file or the new one, and a crash leaves one of the two.
@@ -18,7 +18,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     };
     fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
     let saved = (|| {
-        let mut file = temporary_in(folder)?;
+        let mut file = temporary_in(folder, "")?;
         file.write_all(bytes)?;
         file.flush()?;
         file.as_file().sync_all()?;
@@ -37,24 +37,11 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let saved = (|| {
-        let mut file = temporary_in(folder)?;
+        let mut file = temporary_in(folder, "")?;
         file.write_all(bytes)?;
         file.persist(path).map(drop).map_err(|e| e.error)
     })();
     saved.map_err(|e| Fault::io("cannot write it", path, e))
-}
-
-/// A temporary file with the rights that an ordinary program's file would get: the private ones that temporary
-/// files have by default would make a lesson unreadable to the next teacher.
-fn temporary_in(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lianpu-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }
 
 #[cfg(unix)]

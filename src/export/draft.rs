@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::NamedTempFile;
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, temporary_in};
 
 /// Whatever becomes of it, nobody sees half of it: dropped, it is gone.
 pub(super) struct Draft {
@@ -52,14 +52,7 @@ pub(super) fn beside(place: &Path, ending: &str) -> Result<NamedTempFile> {
         _ => Path::new("."),
     };
     std::fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
-    let mut builder = Builder::new();
-    builder.prefix(".lianpu-").suffix(ending);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder).map_err(|e| write_fault(place, e))
+    temporary_in(folder, ending).map_err(|e| write_fault(place, e))
 }
 
 pub(super) fn write_fault(place: &Path, error: std::io::Error) -> Fault {

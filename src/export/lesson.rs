@@ -4,8 +4,9 @@
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
+use super::plan::out_folder;
 use super::{Ledger, Progress, Report, Request, Whole, plan, run, wholes, write_wholes};
-use crate::disk::Result;
+use crate::disk::{Result, clear_temporaries};
 use crate::project::Lesson;
 
 /// What an export is at.
@@ -53,6 +54,9 @@ pub fn export(
 ) -> Result<Exported> {
     let jobs = plan(lesson, request)?;
     let whole = wholes(lesson, request)?;
+    // What a run that was killed has left half done.
+    clear_temporaries(&out_folder(lesson, request));
+    jobs.iter().for_each(|job| clear_temporaries(&job.folder));
     let (report, files) = run(&jobs, request.jobs, &|p| tell(Step::Frames(p)), stop)?;
     ledger.add(files);
     let made = write_wholes(lesson, request, &whole, ledger, &|whole, p| tell(Step::Whole(whole, p)), stop)?;

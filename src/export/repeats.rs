@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::str::FromStr;
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, temporary_prefix};
 use crate::pose::{Gaze, Head, Lids, MouthPose, Pose, Ratios};
 
 /// What is done about frames that are equal.
@@ -106,6 +106,6 @@ pub(super) fn repeat(from: &Path, path: &Path, dedupe: Dedupe) -> Result<u64> {
 /// Makes a file beside `path` and puts it into its place: never changed where it stands, for it may be a link itself.
 fn in_place(path: &Path, mut make: impl FnMut(&Path) -> std::io::Result<()>) -> std::io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    let beside = tempfile::Builder::new().prefix(".lianpu-").make_in(folder, |beside| make(beside))?;
+    let beside = tempfile::Builder::new().prefix(&temporary_prefix()).make_in(folder, |beside| make(beside))?;
     beside.into_temp_path().persist(path).map_err(|e| e.error)
 }

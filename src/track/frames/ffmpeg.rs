@@ -10,7 +10,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::thread::JoinHandle;
 
 use super::y4m::Y4m;
-use crate::disk::{Fault, Result, clean_line};
+use crate::disk::{Fault, Result, clean_line, temporary_in};
 
 /// The program, found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -189,11 +189,7 @@ pub fn sound_of(video: &Path, out: &Path) -> Result<()> {
     let folder = out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let ffmpeg = Ffmpeg::find()?;
     // Beside the file, so that it is whole or not there.
-    let part = tempfile::Builder::new()
-        .prefix(".lianpu-")
-        .suffix(".wav")
-        .tempfile_in(folder)
-        .map_err(|e| Fault::io("cannot write it", out, e))?;
+    let part = temporary_in(folder, ".wav").map_err(|e| Fault::io("cannot write it", out, e))?;
     let mut words = ffmpeg.opening(video, 0.0, false);
     let plain = ["-map", "0:a:0", "-vn", "-ac", "1", "-ar", "48000", "-c:a", "pcm_s16le", "-f", "wav"];
     words.extend(plain.map(OsString::from));
