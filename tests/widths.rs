@@ -107,7 +107,7 @@ fn every_form_that_shows_a_line_figure_follows_the_option() {
     for (name, bytes) in &usual {
         assert_ne!(bytes, &paper[name], "{name}");
     }
-    assert!(manifest.contains("\"width\": \"paper\""), "{manifest}");
+    assert!(manifest.contains("\"width\":\"paper\""), "{manifest}");
     assert_eq!(
         exported("seven-emotions", "svg,png", &["--width", "bezier"]).0,
         exported("seven-emotions", "svg,png", &[]).0
