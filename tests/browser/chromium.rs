@@ -136,7 +136,8 @@ impl Tab<'_> {
             let params = &event["params"];
             match event["method"].as_str() {
                 Some("Network.requestWillBeSent") => {
-                    self.requests.push(params["request"]["url"].as_str().unwrap_or_default().chars().take(200).collect());
+                    self.requests
+                        .push(params["request"]["url"].as_str().unwrap_or_default().chars().take(200).collect());
                 }
                 Some("Runtime.exceptionThrown") => self.faults.push(params["exceptionDetails"].to_string()),
                 Some("Log.entryAdded") => self.faults.push(params["entry"]["text"].to_string()),
