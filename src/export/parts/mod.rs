@@ -28,9 +28,13 @@ use crate::timeline::Timeline;
 /// Looks of an item that are within so many steps of the grid of each other are one: an eighth of a pixel.
 const ONE_LOOK: i32 = 1;
 
-/// Poses of a part likewise: three eighths. Together half a pixel at most, where a curve is drawn whose edge is a pixel
-/// wide; four times as many poses would be written without it.
-const ONE_POSE: i32 = 3;
+/// Poses of a part likewise, the first of these that makes it small: an eighth, or three. Together half a pixel at most,
+/// where a curve is drawn whose edge is a pixel wide; of a long lesson's mouths four times as many would be written
+/// without it.
+const ONE_POSE: [i32; 2] = [1, 3];
+
+/// Bytes of the poses of a small part.
+const SMALL: u64 = 24_000;
 
 /// Where the grid of the parts lies in the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -227,7 +231,15 @@ fn part_of(items: &[Tracked], frames: usize, names: &mut HashMap<String, u32>) -
         there.filter(|marks| !marks.is_empty()).collect()
     };
     let distinct: Vec<Looks> = all.iter().map(looks).collect();
-    let stands = alike::standing_for(&distinct, ONE_POSE);
+    let mut stands = Vec::new();
+    for steps in ONE_POSE {
+        stands = alike::standing_for(&distinct, steps);
+        let own = distinct.iter().enumerate().filter(|(i, _)| stands[*i] == *i);
+        let weight: u64 = own.flat_map(|(_, looks)| looks.iter()).flat_map(|l| l.iter()).map(Mark::weight).sum();
+        if weight <= SMALL {
+            break;
+        }
+    }
     let mut numbers: HashMap<usize, u32> = HashMap::new();
     let mut poses = Vec::new();
     let one = |i: &Tracked| OneItem { name: i.name.clone(), states: i.states.clone(), at: Vec::new() };

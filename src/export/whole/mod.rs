@@ -380,8 +380,15 @@ impl<'a> Workshop<'a> {
 
     /// What is said, for those who cannot see or hear it.
     fn description(&self, clip: &Clip) -> String {
-        let said: Vec<String> = said::phrases(clip).iter().map(said::Phrase::text).collect();
-        if said.is_empty() { "A face moves.".to_owned() } else { format!("A face says: {}", said.join(" ")) }
+        let mut said = String::new();
+        for phrase in said::phrases(clip) {
+            // Chinese has no blanks between its words.
+            if said.ends_with(|c: char| c.is_ascii()) {
+                said.push(' ');
+            }
+            said.push_str(&phrase.text());
+        }
+        if said.is_empty() { "A face moves.".to_owned() } else { format!("A face says: {said}") }
     }
 }
 

@@ -242,7 +242,7 @@
     const frame = Math.max(0, Math.min(clip.frames - 1, Math.round((time + ahead) * clip.fps - 1e-6)));
     if (frame !== shown) paint(frame);
     find('seek').value = time;
-    find('time').value = clock(time) + ' / ' + clock(clip.duration);
+    find('time').textContent = clock(time) + ' / ' + clock(clip.duration);
     const piece = at(time), said = piece && time < piece.to ? piece : null;
     if (said !== lit) {
       if (lit) lit.element.classList.remove('lit');
@@ -253,6 +253,8 @@
     if (own !== sentence && !(loops() && isPlaying() && until === null && sentence)) enter(own);
   }
 
+  // Brings the sentence into view, but for the one a clip is opened at.
+  let settled = false;
   function enter(own) {
     sentence?.element.classList.remove('now');
     sentence = own;
@@ -260,7 +262,7 @@
     own.element.classList.add('now');
     const box = own.element.getBoundingClientRect(), stage = document.querySelector('.stage').getBoundingClientRect();
     const top = stage.right > box.left ? Math.max(stage.bottom, 0) : 0;
-    if (isPlaying() && (box.bottom > innerHeight || box.top < top)) {
+    if (settled && (box.bottom > innerHeight || box.top < top)) {
       scrollTo({ top: scrollY + box.top - top - 24, behavior: calm.matches ? 'auto' : 'smooth' });
     }
   }
@@ -299,6 +301,7 @@
     if (clip) { pause(); find('said-' + clips.indexOf(clip)).hidden = true; }
     lit?.element.classList.remove('lit');
     sentence?.element.classList.remove('now');
+    settled = false;
     clip = clips[number];
     notice('');
     sound = clip.mute ? null : find('sound-' + number);
@@ -322,6 +325,7 @@
     fit();
     go(0);
     spoken();
+    settled = true;
     if (sound?.error) mute(false);
   }
 
@@ -356,14 +360,14 @@
   function loop() {
     const on = press(find('loop'));
     say(on ? 'The sentence is repeated' : 'Plays on');
-    if (on) enter((at(now()) || pieces[0] || {}).sentence || null);
+    if (on) { until = null; enter((at(now()) || pieces[0] || {}).sentence || null); }
   }
 
   function speed(value) {
     const time = now();
     find('speed').value = value;
     const shownRate = +rate().toFixed(2) + '×';
-    find('rate').value = shownRate;
+    find('rate').textContent = shownRate;
     find('speed').setAttribute('aria-valuetext', shownRate);
     if (sound) sound.playbackRate = rate(); else { silent.time = time; silent.since = performance.now(); }
   }
@@ -380,7 +384,7 @@
     if (!pieces.length) { go(now() + by * 2); spoken(); return; }
     const starts = [...new Set(pieces.map(p => p.sentence))].map(s => s.from);
     const time = now();
-    const from = starts.findLastIndex(s => s <= time + 0.01);
+    const from = starts.findLastIndex(s => s <= time + 0.0005);
     const to = by < 0 && from >= 0 && time - starts[from] > 0.5 ? from : from + by;
     const target = starts[Math.max(0, Math.min(starts.length - 1, to))];
     if (until !== null) pause();
@@ -392,7 +396,7 @@
   // By syllable; one that is stepped to while nothing plays is said.
   function stepSmall(by) {
     if (!pieces.length) { pause(); go(now() + by / clip.fps); return; }
-    const time = now(), from = pieces.findLastIndex(p => p.from <= time + 0.01);
+    const time = now(), from = pieces.findLastIndex(p => p.from <= time + 0.0005);
     const piece = pieces[Math.max(0, Math.min(pieces.length - 1, from + by))];
     if (isPlaying() && until === null) { enter(piece.sentence); go(piece.from + 0.001); } else hear(piece.from, piece.to);
   }

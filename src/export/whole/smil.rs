@@ -4,6 +4,7 @@
 //! SVG's own `<audio>` is played by no browser of today: sound is XHTML in a `foreignObject`, and a few lines of script
 //! set the picture's clock by it. Without sound there is no script, and the picture plays wherever SVG is animated.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::sound::Encoded;
@@ -37,8 +38,8 @@ pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>
             } else {
                 let prefix = short_name(letter);
                 letter += 1;
-                write_poses(&mut poses, part, &prefix, &mut defs);
-                write_use(&mut scene, part, &prefix, parts);
+                let names = write_poses(&mut poses, part, &prefix, &mut defs);
+                write_use(&mut scene, part, &names, parts);
             }
             scene.push_str("</g>\n");
         }
@@ -132,21 +133,30 @@ pub(super) fn on_grid(parts: &Parts) -> String {
     format!("<g transform=\"translate({x} {y})scale(.125)\">\n")
 }
 
-fn write_poses(out: &mut String, part: &Part, prefix: &str, defs: &mut Defs) {
-    for pose in 0..part.poses.len() as u32 {
-        let mut group = format!("<g id=\"{prefix}{pose}\">");
-        write_marks(&mut group, part.marks(pose), defs);
+/// Writes the poses of a part; says what each is called. Two that are written alike are one.
+fn write_poses(out: &mut String, part: &Part, prefix: &str, defs: &mut Defs) -> Vec<String> {
+    let mut known: HashMap<String, String> = HashMap::new();
+    let name = |pose| {
+        let mut marks = String::new();
+        write_marks(&mut marks, part.marks(pose), defs);
         // What a pose refers to stands just before it, where a packer finds the like of it.
         out.push_str(&std::mem::take(&mut defs.text));
-        out.push_str(&group);
-        out.push_str("</g>\n");
-    }
+        if let Some(name) = known.get(&marks) {
+            return name.clone();
+        }
+        let name = format!("{prefix}{}", known.len());
+        let _ = writeln!(out, "<g id=\"{name}\">{marks}</g>");
+        known.insert(marks, name.clone());
+        name
+    };
+    (0..part.poses.len() as u32).map(name).collect()
 }
 
-fn write_use(out: &mut String, part: &Part, prefix: &str, parts: &Parts) {
-    let first = part.runs.first().map_or(0, |r| r.1);
-    let _ = write!(out, "<use href=\"#{prefix}{first}\"><animate attributeName=\"href\"");
-    keys(out, &part.runs, parts, |pose| format!("#{prefix}{pose}"));
+fn write_use(out: &mut String, part: &Part, names: &[String], parts: &Parts) {
+    let name = |pose: u32| names.get(pose as usize).map_or("", String::as_str);
+    let _ =
+        write!(out, "<use href=\"#{}\"><animate attributeName=\"href\"", name(part.runs.first().map_or(0, |r| r.1)));
+    keys(out, &part.runs, parts, |pose| format!("#{}", name(*pose)));
     out.push_str("/></use>");
 }
 
@@ -209,7 +219,7 @@ fn begin_moves(out: &mut String, moves: &[(u32, Move)], parts: &Parts) -> usize 
     }
 }
 
-/// The player of the sound, and what ties the picture's clock to it.
+/// The player of the sound, which is not seen where no script can tie it (in an image of a page), and what ties the picture's clock to it.
 fn sound_of(parts: &Parts, sound: Option<&Encoded>) -> String {
     let Some(sound) = sound else { return String::new() };
     let [width, height] = parts.grid.size;
@@ -218,7 +228,7 @@ fn sound_of(parts: &Parts, sound: Option<&Encoded>) -> String {
         "<foreignObject x=\"0\" y=\"{}\" width=\"{width}\" height=\"{bar}\">\
          <audio xmlns=\"http://www.w3.org/1999/xhtml\" controls=\"\" preload=\"auto\" \
          style=\"display:block;width:100%;height:{bar}px\" src=\"{}\"></audio></foreignObject>\n\
-         <style>foreignObject{{transition:opacity .3s}}.playing foreignObject:not(:hover):not(:focus-within){{opacity:0}}</style>\n\
+         <style>foreignObject{{visibility:hidden;transition:opacity .3s}}.heard foreignObject{{visibility:visible}}.playing foreignObject:not(:hover):not(:focus-within){{opacity:0}}</style>\n\
          <script><![CDATA[\n{}]]></script>\n",
         height - bar,
         super::base64::data_uri(sound.mime, &sound.bytes),
@@ -243,6 +253,7 @@ const TIE: &str = r"(function () {
     if (Math.abs(svg.getCurrentTime() - wanted()) > APART) set();
     requestAnimationFrame(tie);
   }
+  svg.classList.add('heard');
   svg.pauseAnimations();
   svg.setCurrentTime(0);
   sound.addEventListener('playing', function () {

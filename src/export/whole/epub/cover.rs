@@ -1,7 +1,7 @@
 //! The pictures of a book: its cover, and what stands where no face can be shown.
 
 use crate::disk::Result;
-use crate::drawing::{Anchor, Colour, Drawing, Item, Layer};
+use crate::drawing::{Anchor, Colour, Drawing, Group, Item, Layer, fit};
 use crate::figure::Figure;
 use crate::geometry::{Point, Rect};
 use crate::pose::Pose;
@@ -29,7 +29,7 @@ pub(super) fn cover(figure: &Figure, title: &str) -> Result<Vec<u8>> {
     let light = u32::from(ground.r) * 3 + u32::from(ground.g) * 6 + u32::from(ground.b);
     let ink = if light > 1400 { Colour::rgb(0x24, 0x21, 0x1d) } else { Colour::WHITE };
     let items = vec![
-        face.placed_in(Rect::new(40.0, 210.0, width - 40.0, height - 40.0)),
+        below(&face, 210.0, [width, height]),
         Item::text(Point::new(width / 2.0, 130.0), size, Anchor::Middle, ink, said),
     ];
     paint(
@@ -42,6 +42,15 @@ pub(super) fn cover(figure: &Figure, title: &str) -> Result<Vec<u8>> {
         },
         COVER,
     )
+}
+
+/// A figure that fills a page from some height down, and ends with it at its sides.
+fn below(face: &Drawing, top: f64, [width, height]: [f64; 2]) -> Item {
+    let room = height - top;
+    let wide = room * face.view.width() / face.view.height();
+    let frame = Rect::new((width - wide) / 2.0, top, f64::midpoint(width, wide), height);
+    let items = face.layers.iter().flat_map(|layer| layer.items.iter().cloned()).collect();
+    Item::Group(Group { name: String::new(), transform: fit(face.view, frame), clip: None, items })
 }
 
 /// A PNG of a drawing, half as large as the picture and no wider than 800 pixels.
