@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use lianpu::export::{Format, Request, Written, plan, run, wholes, write_wholes};
+use lianpu::export::{Format, Ledger, Request, Shard, Share, Written, plan, run, wholes, write_wholes};
 use lianpu::project::Lesson;
 use lianpu::render::Painter;
 use resvg::{tiny_skia, usvg};
@@ -57,7 +57,8 @@ fn export(lesson: &Lesson, out: &Path, change: impl FnOnce(&mut Request), format
     let go_on = AtomicBool::new(false);
     run(&plan(lesson, &request).unwrap(), 1, &|_| {}, &go_on).unwrap();
     let all = wholes(lesson, &request).unwrap();
-    write_wholes(lesson, &request, &all, &mut |_, _| {}, &go_on).unwrap()
+    let mut ledger = Ledger::open(out, Shard::WHOLE);
+    write_wholes(lesson, &request, &all, &mut ledger, &|_, _| {}, &go_on).unwrap()
 }
 
 fn text(path: impl AsRef<Path>) -> String {
@@ -332,8 +333,8 @@ fn a_second_run_keeps_everything_and_another_place_gets_the_same_bytes() {
         let other = two.join(file.file_name().unwrap());
         assert_eq!(std::fs::read(file).unwrap(), std::fs::read(&other).unwrap(), "{}", other.display());
     }
-    let shard = |r: &mut Request| r.shard = "2/2".parse().unwrap();
-    assert!(export(&lesson, &folder.path().join("three"), shard, &forms).is_empty(), "the first shard writes them");
+    let other_half = |r: &mut Request| r.shares = Some(vec![Share { frames: 5..9, whole_files: false }; 2]);
+    assert!(export(&lesson, &folder.path().join("three"), other_half, &forms).is_empty(), "another part writes them");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer, Raster};
-use lianpu::export::{Dedupe, Format, Job, Report, Request, plan, run};
+use lianpu::export::{Dedupe, Format, Job, Report, Request, divide, plan, run};
 use lianpu::geometry::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
 use lianpu::project::Lesson;
 use lianpu::render::{ClipCoder, Painter, Picture, decode_key};
@@ -25,7 +25,7 @@ fn request(out: &Path) -> Request {
 
 fn export(request: &Request, threads: usize) -> (Vec<Job>, Report) {
     let jobs = plan(&lesson(), request).unwrap();
-    let report = run(&jobs, threads, &|_| {}, &AtomicBool::new(false)).unwrap();
+    let (report, _) = run(&jobs, threads, &|_| {}, &AtomicBool::new(false)).unwrap();
     (jobs, report)
 }
 
@@ -82,7 +82,8 @@ fn frames_have_the_same_bytes_however_they_come_to_be_written() {
     let out = folder();
     let mut parts = BTreeMap::new();
     for part in ["3/3", "1/3", "2/3"] {
-        let request = Request { shard: part.parse().unwrap(), ..request(out.path()) };
+        let shares = divide(&[all.len() as u32], part.parse().unwrap());
+        let request = Request { shares: Some(shares), ..request(out.path()) };
         parts.extend(files(&export(&request, 1).0));
     }
     assert_eq!(parts, all);

@@ -6,6 +6,7 @@
 use std::cell::Cell;
 use std::fs::{self, File};
 use std::io::BufReader;
+use std::ops::Range;
 use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -33,7 +34,8 @@ impl Disc {
     }
 
     fn shown(&mut self, n: u32) -> Vec<u8> {
-        self.at(n).unwrap().rgba.clone()
+        self.show(n).unwrap();
+        self.picture.rgba.clone()
     }
 }
 
@@ -46,7 +48,7 @@ impl Frames for Disc {
         self.count
     }
 
-    fn at(&mut self, n: u32) -> Result<&Picture> {
+    fn show(&mut self, n: u32) -> Result<(Range<u32>, Range<u32>)> {
         // Every third frame is held.
         let step = f64::from(n - u32::from(n % 3 == 2));
         let (width, height) = (self.picture.width, self.picture.height);
@@ -70,7 +72,11 @@ impl Frames for Disc {
                 p[3] = 255;
             }
         }
-        Ok(&self.picture)
+        Ok((0..width, 0..height))
+    }
+
+    fn picture(&self) -> &Picture {
+        &self.picture
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use crate::disk::{Fault, Result};
-use crate::export::{self, Format, Request};
+use crate::export::{self, Format, Ledger, Request, Shard, Step};
 use crate::project::{Lesson, projects_in};
 use crate::studio::{self, ExportRequest, Progress};
 
@@ -39,31 +39,33 @@ fn run_export(request: ExportRequest, progress: &dyn Fn(Progress), stop: &Atomic
     let lesson = Lesson::read(&request.project)?;
     let mut asked = Request::new(formats);
     asked.clip = request.clip;
-    let jobs = export::plan(&lesson, &asked)?;
+    let clips = export::asked(&lesson, &asked)?;
+    let mut ledger = Ledger::open(&lesson.root.join("export"), Shard::WHOLE);
     // The export's threads count; only this one may talk to the studio, which misses a step while it is busy.
     let (sender, receiver) = crossbeam_channel::bounded(64);
-    let (jobs, threads) = (&jobs, asked.jobs);
-    let report = std::thread::scope(|scope| {
+    let (source, asked, book) = (&lesson, &asked, &mut ledger);
+    let exported = std::thread::scope(|scope| {
         let worker = scope.spawn(move || {
-            let tell = |p: export::Progress| {
-                let _ = sender.try_send(p);
+            let tell = |step: Step<'_>| {
+                let (what, p) = match step {
+                    Step::Frames(p) => ("frames".to_owned(), p),
+                    Step::Whole(whole, p) => (whole.format.name().to_owned(), p),
+                };
+                let _ = sender.try_send(Progress { done: p.done.into(), total: p.of.into(), what });
             };
-            export::run(jobs, threads, &tell, stop)
+            export::export(source, asked, book, &tell, stop)
         });
         for p in &receiver {
-            progress(Progress { done: p.done.into(), total: p.of.into(), what: "frames".into() });
+            progress(p);
         }
         worker.join().unwrap_or_else(|_| Err(Fault::new("the export broke off")))
     });
-    let report = report.and_then(|report| {
-        let all = export::wholes(&lesson, &asked)?;
-        let mut tell = |number: usize, whole: &export::Whole| {
-            progress(Progress { done: number as u64, total: all.len() as u64, what: whole.format.name().into() });
-        };
-        let made = export::write_wholes(&lesson, &asked, &all, &mut tell, stop)?;
-        let mut report = report.with(&made);
-        report.stopped |= made.len() < all.len();
-        Ok(report)
+    let report = exported.and_then(|exported| {
+        if !exported.report.stopped {
+            ledger.ask(clips);
+            ledger.close()?;
+        }
+        Ok(exported.report)
     });
     let report = report.map_err(|fault| {
         let help = format!("elsewhere: lianpu export {} --to {} --out DIR", request.project.display(), request.formats);

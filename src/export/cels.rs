@@ -1,5 +1,7 @@
 //! What changes from frame to frame: a moving picture as a first picture and the rectangles that are laid over it.
 
+use std::ops::Range;
+
 use super::stream::{Frames, Outcome, Watch};
 use crate::disk::{Fault, Result};
 
@@ -17,6 +19,13 @@ impl Area {
         Self { x: 0, y: 0, width: size[0], height: size[1] }
     }
 
+    /// Of columns and rows, as far as the picture goes.
+    pub(super) fn of((columns, rows): (Range<u32>, Range<u32>), size: [u32; 2]) -> Self {
+        let (x, y) = (columns.start.min(size[0]), rows.start.min(size[1]));
+        let (right, bottom) = (columns.end.clamp(x, size[0]), rows.end.clamp(y, size[1]));
+        Self { x, y, width: right - x, height: bottom - y }
+    }
+
     /// The smallest area that holds both.
     pub(super) fn union(self, other: Self) -> Self {
         let (x, y) = (self.x.min(other.x), self.y.min(other.y));
@@ -26,7 +35,7 @@ impl Area {
     }
 
     /// Where its rows lie in a picture of this width with `depth` bytes a pixel.
-    pub(super) fn rows(self, width: u32, depth: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
+    pub(super) fn rows(self, width: u32, depth: usize) -> impl Iterator<Item = Range<usize>> {
         let (width, length) = (width as usize * depth, self.width as usize * depth);
         (self.y..self.y + self.height).map(move |y| {
             let start = y as usize * width + self.x as usize * depth;
@@ -35,24 +44,24 @@ impl Area {
     }
 }
 
-/// The smallest area outside which two pictures of `depth` bytes a pixel are equal; none where they are equal.
-pub(super) fn changed(old: &[u8], new: &[u8], size: [u32; 2], depth: usize) -> Option<Area> {
-    let stride = size[0] as usize * depth;
-    let rows = || old.chunks_exact(stride).zip(new.chunks_exact(stride));
-    let top = rows().position(|(a, b)| a != b)?;
-    let bottom = rows().rposition(|(a, b)| a != b)?;
-    let (mut left, mut right) = (stride, 0);
-    for (a, b) in rows().skip(top).take(bottom + 1 - top) {
+/// The smallest area outside which two pictures of `depth` bytes a pixel are equal, where they are known to be equal outside
+/// `within`; none where they are equal.
+pub(super) fn changed(old: &[u8], new: &[u8], width: u32, depth: usize, within: Area) -> Option<Area> {
+    let mut box_of: Option<(u32, u32, usize, usize)> = None;
+    for (y, row) in (within.y..).zip(within.rows(width, depth)) {
+        let (a, b) = (&old[row.clone()], &new[row]);
+        if a == b {
+            continue;
+        }
+        let (top, _, left, right) = box_of.unwrap_or((y, y, a.len(), 0));
         // Only what lies outside the columns that are known can still move them.
-        if let Some(at) = a[..left].iter().zip(&b[..left]).position(|(a, b)| a != b) {
-            left = at;
-        }
-        if let Some(at) = a[right..].iter().zip(&b[right..]).rposition(|(a, b)| a != b) {
-            right += at + 1;
-        }
+        let first = a[..left].iter().zip(&b[..left]).position(|(a, b)| a != b).unwrap_or(left);
+        let last = a[right..].iter().zip(&b[right..]).rposition(|(a, b)| a != b).map_or(right, |at| right + at + 1);
+        box_of = Some((top, y, first, last));
     }
-    let (left, right) = (left / depth, right.div_ceil(depth));
-    Some(Area { x: left as u32, y: top as u32, width: (right - left) as u32, height: (bottom + 1 - top) as u32 })
+    let (top, bottom, left, right) = box_of?;
+    let (left, right) = ((left / depth) as u32, right.div_ceil(depth) as u32);
+    Some(Area { x: within.x + left, y: top, width: right - left, height: bottom + 1 - top })
 }
 
 /// One rectangle and how long it is the newest one.
@@ -78,15 +87,17 @@ pub(super) fn each(
     if count == 0 || size[0] == 0 || size[1] == 0 {
         return Err(Fault::new("there are no frames to be shown").help("give the clip a recording, times or keys"));
     }
-    let mut shown = whole(frames, 0, size)?.to_vec();
+    frames.show(0)?;
+    let mut shown = pixels(frames, size)?.to_vec();
     let mut cel = Cel { from: 0, until: count, area: Area::whole(size) };
     (watch.progress)(1);
     for n in 1..count {
         if watch.is_stopped() {
             return Ok(Outcome::Stopped);
         }
-        let next = whole(frames, n, size)?;
-        if let Some(area) = changed(&shown, next, size, 4) {
+        let within = Area::of(frames.show(n)?, size);
+        let next = pixels(frames, size)?;
+        if let Some(area) = changed(&shown, next, size[0], 4, within) {
             if n < soonest(cel.from) {
                 // Too short to be shown: the newer picture takes its place.
                 cel.area = cel.area.union(area);
@@ -104,14 +115,14 @@ pub(super) fn each(
     Ok(Outcome::Written(0))
 }
 
-/// The pixels of a frame, which must have the size that was said.
-pub(super) fn whole(frames: &mut dyn Frames, n: u32, size: [u32; 2]) -> Result<&[u8]> {
-    let picture = frames.at(n)?;
+/// The pixels of the frame that is shown, which must have the size that was said.
+pub(super) fn pixels(frames: &dyn Frames, size: [u32; 2]) -> Result<&[u8]> {
+    let picture = frames.picture();
     let length = size[0] as usize * size[1] as usize * 4;
     if picture.rgba.len() == length {
         Ok(&picture.rgba)
     } else {
-        Err(Fault::new(format!("frame {n} has another size than the others")))
+        Err(Fault::new("a frame has another size than the others"))
     }
 }
 
@@ -130,7 +141,12 @@ mod tests {
                 new[(y * 9 + x) as usize * 4 + (x + y) as usize % 4] = 6;
             }
             let expected = points.iter().map(|(x, y)| Area { x: *x, y: *y, width: 1, height: 1 }).reduce(Area::union);
-            prop_assert_eq!(changed(&old, &new, size, 4), expected);
+            prop_assert_eq!(changed(&old, &new, 9, 4, Area::whole(size)), expected);
+            if let Some(area) = expected {
+                prop_assert_eq!(changed(&old, &new, 9, 4, area), expected);
+                let wider = Area { x: 0, width: area.x + area.width, ..area };
+                prop_assert_eq!(changed(&old, &new, 9, 4, wider), expected);
+            }
         }
     }
 }

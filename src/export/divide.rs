@@ -16,6 +16,14 @@ pub struct Share {
     pub whole_files: bool,
 }
 
+impl Share {
+    /// Whether nothing of the clip is to be done.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.frames.is_empty() && !self.whole_files
+    }
+}
+
 /// What a part has of each clip, by how many frames are asked of each. A clip without frames counts as one.
 #[must_use]
 pub fn divide(counts: &[u32], shard: Shard) -> Vec<Share> {

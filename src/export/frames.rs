@@ -61,12 +61,6 @@ impl Shard {
     /// Everything.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
 
-    /// Whether it is the one that writes what is not divided.
-    #[must_use]
-    pub const fn is_first(self) -> bool {
-        self.index == 1
-    }
-
     /// Part `index` of `count`; none where there is no such part.
     #[must_use]
     pub fn new(index: u32, count: u32) -> Option<Self> {
@@ -83,13 +77,6 @@ impl Shard {
     #[must_use]
     pub const fn count(self) -> u32 {
         self.count
-    }
-
-    /// This shard's part of a list: neighbouring items, so that what repeats from frame to frame stays together.
-    #[must_use]
-    pub fn of<T: Copy>(self, list: &[T]) -> Vec<T> {
-        let at = |i: u32| (list.len() as u64 * u64::from(i) / u64::from(self.count)) as usize;
-        list[at(self.index - 1)..at(self.index)].to_vec()
     }
 }
 
@@ -114,7 +101,6 @@ impl fmt::Display for Shard {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
 
     #[test]
     fn ranges_count_inclusively_and_stop_at_the_clip_s_end() {
@@ -123,15 +109,6 @@ mod tests {
         assert_eq!("7".parse::<FrameSet>().unwrap().of(10), [7]);
         for bad in ["", "a", "5-3", "1-", "-1"] {
             assert!(bad.parse::<FrameSet>().is_err(), "{bad}");
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn the_shards_of_a_list_are_the_list(count in 1u32..20, length in 0usize..200) {
-            let list: Vec<usize> = (0..length).collect();
-            let joined: Vec<usize> = (1..=count).flat_map(|index| Shard { index, count }.of(&list)).collect();
-            prop_assert_eq!(joined, list);
         }
     }
 }

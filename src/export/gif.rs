@@ -139,7 +139,7 @@ impl Canvas {
             }
         }
         let first = self.held.is_none();
-        let area = if first { Some(cel.area) } else { changed(&self.shown, &self.next, self.size, 1) };
+        let area = if first { Some(cel.area) } else { changed(&self.shown, &self.next, width, 1, cel.area) };
         let Some(mut area) = area else {
             // The change was too slight for the colours: the frame before stays.
             return self.longer(delay);

@@ -142,7 +142,7 @@ impl Entry {
     }
 }
 
-fn hex(bytes: &[u8]) -> String {
+pub(super) fn hex(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 16] = b"0123456789abcdef";
     let digits = bytes.iter().flat_map(|b| [DIGITS[usize::from(b >> 4)], DIGITS[usize::from(b & 15)]]);
     digits.map(char::from).collect()
@@ -265,13 +265,18 @@ impl Manifest {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, folder: &Path) -> Result<PathBuf> {
-        let path = folder.join(Self::name(self.part()?));
+        let name = Self::name(self.part()?);
+        self.write_as(folder, &name)?;
+        Ok(folder.join(name))
+    }
+
+    pub(super) fn write_as(&self, folder: &Path, name: &str) -> Result<()> {
+        let path = folder.join(name);
         let text = self.to_json()?;
         if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
-            return Ok(path);
+            return Ok(());
         }
-        write_whole(&path, text.as_bytes())?;
-        Ok(path)
+        write_whole(&path, text.as_bytes())
     }
 
     /// JSON with a line for each clip and each file, so that two of them can be compared.

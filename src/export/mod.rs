@@ -3,6 +3,7 @@
 //! An export can be stopped at any moment and run again: what is there and still right is not written again.
 
 pub mod apng;
+mod asked;
 mod captions;
 mod cels;
 mod divide;
@@ -11,6 +12,8 @@ mod farm;
 mod format;
 mod frames;
 pub mod gif;
+mod ledger;
+mod lesson;
 mod manifest;
 mod merge;
 pub mod movie;
@@ -24,10 +27,13 @@ mod said;
 mod stream;
 mod whole;
 
+pub use asked::asked;
 pub use divide::{Share, divide, shard_of_array};
 pub use farm::{Engine, Farm, MOST_TASKS};
 pub use format::Format;
 pub use frames::{FrameSet, Shard};
+pub use ledger::Ledger;
+pub use lesson::{Exported, Place, Step, export};
 pub use manifest::{Asked, Entry, Manifest};
 pub use merge::{Merged, merge};
 pub use plan::{Job, Request, plan};

@@ -44,8 +44,8 @@ impl Palette {
         let samples = SAMPLES.min(count);
         for k in 0..samples {
             let n = (u64::from(k) * u64::from(count) / u64::from(samples)) as u32;
-            let pixels = super::cels::whole(frames, n, size)?;
-            count_colours(pixels, &mut found);
+            frames.show(n)?;
+            count_colours(super::cels::pixels(frames, size)?, &mut found);
         }
         let mut flattened: BTreeMap<u32, u64> = BTreeMap::new();
         for (colour, times) in found {

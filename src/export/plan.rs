@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Dedupe, Format, FrameSet, Shard, captions, poses, said};
+use super::{Dedupe, Format, FrameSet, Share, captions, poses, said};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::figure::Figure;
-use crate::project::{Lesson, Output};
+use crate::figure::{Figure, Widths};
+use crate::project::{ClipEntry, Lesson, Output};
 use crate::timeline::Timeline;
 use crate::timing::Timing;
 
@@ -23,14 +23,16 @@ pub struct Request {
     pub by_project: bool,
     /// Which frames.
     pub frames: FrameSet,
-    /// Which part of them.
-    pub shard: Shard,
+    /// What of each clip is to be done, where others do the rest; everything where left out.
+    pub shares: Option<Vec<Share>>,
     /// Instead of the manifest's size in pixels.
     pub size: Option<[u32; 2]>,
     /// Instead of the manifest's frames a second.
     pub fps: Option<f64>,
     /// Instead of the figure's background; `Some(None)` is transparent.
     pub background: Option<Option<Colour>>,
+    /// How the widths of a line figure's strokes run, instead of as the figure says.
+    pub width: Option<Widths>,
     /// What is done about frames that are equal.
     pub dedupe: Dedupe,
     /// Threads; 0 for as many as there are processors.
@@ -49,14 +51,32 @@ impl Request {
             out: None,
             by_project: false,
             frames: FrameSet::default(),
-            shard: Shard::WHOLE,
+            shares: None,
             size: None,
             fps: None,
             background: None,
+            width: None,
             dedupe: Dedupe::default(),
             jobs: 0,
             thesis: false,
         }
+    }
+
+    /// The figure of a clip, drawn as it is asked for.
+    ///
+    /// # Errors
+    /// As [`Lesson::figure_of`].
+    pub(super) fn figure_of(&self, lesson: &Lesson, clip: &ClipEntry) -> Result<Figure> {
+        let figure = lesson.figure_of(clip)?;
+        Ok(match self.width {
+            Some(widths) => figure.with_widths(widths),
+            None => figure,
+        })
+    }
+
+    /// The share of the clip at a place among those that are asked for.
+    pub(super) fn share_of(&self, place: usize) -> Option<&Share> {
+        self.shares.as_ref().and_then(|shares| shares.get(place))
     }
 }
 
@@ -67,6 +87,8 @@ pub struct Job {
     pub title: String,
     /// The clip's name.
     pub clip: String,
+    /// The folder of the export's manifest, which all files are in.
+    pub root: PathBuf,
     /// Frames go here as `000000.png` and so on.
     pub folder: PathBuf,
     /// The frames to write.
@@ -99,7 +121,7 @@ impl Job {
     }
 }
 
-/// Works out the jobs of an export, one a clip. Nothing is written yet.
+/// Works out the jobs of an export, one a clip that has something to be done. Nothing is written yet.
 ///
 /// # Errors
 /// When a clip, figure, size or frame rate cannot be used.
@@ -107,7 +129,54 @@ pub fn plan(lesson: &Lesson, request: &Request) -> Result<Vec<Job>> {
     let output = checked_output(lesson, request)?;
     let clips = chosen_clips(lesson, request)?;
     let out = out_folder(lesson, request);
-    clips.into_iter().map(|clip| job(lesson, clip, request, &output, &out)).collect()
+    let mut jobs = Vec::with_capacity(clips.len());
+    for (place, clip) in clips.into_iter().enumerate() {
+        let share = request.share_of(place);
+        if share.is_none_or(|s| !s.is_empty()) {
+            jobs.push(job(lesson, clip, request, share, &output, &out)?);
+        }
+    }
+    Ok(jobs)
+}
+
+/// The frames that are asked of a clip, by all parts of the export.
+///
+/// # Errors
+/// When the clip has no such frame.
+pub(super) fn frames_asked(request: &Request, name: &str, count: u32) -> Result<Vec<u32>> {
+    if let Some(last) = request.frames.last().filter(|last| *last >= count) {
+        return Err(Fault::new(format!("frame {last} is beyond the clip `{name}`"))
+            .help(format!("it has {count} frames, 0 to {}", count.saturating_sub(1)))
+            .of_the_call());
+    }
+    Ok(request.frames.of(count))
+}
+
+/// A file that carries a clip's times as text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Text {
+    TextGrid,
+    Vtt,
+    Srt,
+    KaraokeSrt,
+    Poses,
+}
+
+/// Those that are asked for, and where each goes.
+pub(super) fn texts_of<'a>(
+    request: &'a Request,
+    clip: &'a str,
+    out: &'a Path,
+) -> impl Iterator<Item = (Text, PathBuf)> + 'a {
+    let texts = |format: &Format| match format {
+        Format::TextGrid => &[(Text::TextGrid, "TextGrid")][..],
+        Format::Vtt => &[(Text::Vtt, "vtt")],
+        Format::Srt => &[(Text::Srt, "srt"), (Text::KaraokeSrt, "karaoke.srt")],
+        Format::Poses => &[(Text::Poses, "poses.csv")],
+        _ => &[],
+    };
+    let all = request.formats.iter().flat_map(texts);
+    all.map(move |(text, ending)| (*text, out.join(format!("{clip}.{ending}"))))
 }
 
 /// Size and frame rate: the manifest's, or those asked for.
@@ -135,6 +204,11 @@ pub(super) fn chosen_clips(lesson: &Lesson, request: &Request) -> Result<Vec<usi
     })
 }
 
+/// The folder that an export's manifest lies in: of one lesson its own, or one for several.
+pub(super) fn root_folder(lesson: &Lesson, request: &Request) -> PathBuf {
+    request.out.clone().unwrap_or_else(|| lesson.root.join("export"))
+}
+
 /// Where the files go.
 pub(super) fn out_folder(lesson: &Lesson, request: &Request) -> PathBuf {
     let project = || {
@@ -148,37 +222,43 @@ pub(super) fn out_folder(lesson: &Lesson, request: &Request) -> PathBuf {
     }
 }
 
-fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &Path) -> Result<Job> {
+fn job(
+    lesson: &Lesson,
+    index: usize,
+    request: &Request,
+    share: Option<&Share>,
+    output: &Output,
+    out: &Path,
+) -> Result<Job> {
     let clip = &lesson.clips[index];
     let timeline = lesson.timeline(index, Some(output.fps));
     let count = timeline.frames();
-    if let Some(last) = request.frames.last().filter(|last| *last >= count) {
-        return Err(Fault::new(format!("frame {last} is beyond the clip `{}`", clip.entry.name))
-            .help(format!("it has {count} frames, 0 to {}", count.saturating_sub(1)))
-            .of_the_call());
-    }
-    let frames = request.shard.of(&request.frames.of(count));
-    let whole = request.frames.is_all() && request.shard == Shard::WHOLE;
-    let texts = request.formats.iter().filter(|f| f.is_text()).map(|format| {
-        let path = |ending: &str| out.join(format!("{}.{ending}", clip.entry.name));
+    let asked = frames_asked(request, &clip.entry.name, count)?;
+    let frames = match share {
+        Some(share) => asked.get(share.frames.start as usize..share.frames.end as usize).unwrap_or_default().to_vec(),
+        None => asked.clone(),
+    };
+    let whole = request.frames.is_all() && frames.len() == asked.len();
+    let with_texts = share.is_none_or(|s| s.whole_files);
+    let texts = texts_of(request, &clip.entry.name, out).filter(|_| with_texts).map(|(text, path)| {
         // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
-        match format {
-            Format::TextGrid => {
-                let timing = crate::timing::Format::TextGrid;
-                (path(timing.extension()), crate::timing::write(&clip.timing, timing))
-            }
-            Format::Vtt => (path("vtt"), captions::vtt(&said::phrases(clip))),
-            Format::Srt => {
+        let text = match text {
+            Text::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
+            Text::Vtt => captions::vtt(&said::phrases(clip)),
+            Text::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
+            Text::Srt => {
                 let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
-                (path("srt"), crate::timing::write(&phrases, crate::timing::Format::Srt))
+                crate::timing::write(&phrases, crate::timing::Format::Srt)
             }
-            _ => (path("poses.csv"), poses::to_csv(&timeline, &frames)),
-        }
+            Text::Poses => poses::to_csv(&timeline, &asked),
+        };
+        (path, text)
     });
     let texts = texts.collect();
     Ok(Job {
         title: lesson.manifest.title.clone(),
         clip: clip.entry.name.clone(),
+        root: root_folder(lesson, request),
         folder: out.join(&clip.entry.name),
         frames,
         whole,
@@ -189,6 +269,6 @@ fn job(lesson: &Lesson, index: usize, request: &Request, output: &Output, out: &
         texts,
         formats: request.formats.iter().copied().filter(|f| f.is_frames()).collect(),
         timeline,
-        figure: lesson.figure_of(&clip.entry)?,
+        figure: request.figure_of(lesson, &clip.entry)?,
     })
 }

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
+use super::asked::within;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
-use super::{Format, Job};
+use super::{Entry, Format, Job};
 use crate::disk::{Fault, Result, replace, write_whole};
 use crate::drawing::Drawing;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
@@ -37,19 +38,26 @@ pub struct Report {
 }
 
 /// Runs jobs on `threads` threads (0: as many as there are processors). `progress` is called from any of them.
-/// `stop` ends it early, between two frames.
+/// `stop` ends it early, between two frames. Returns also what there is now of what was asked for.
 ///
 /// # Errors
 /// When a file cannot be written. Every file that is there is whole.
-pub fn run(jobs: &[Job], threads: usize, progress: &(dyn Fn(Progress) + Sync), stop: &AtomicBool) -> Result<Report> {
+pub fn run(
+    jobs: &[Job],
+    threads: usize,
+    progress: &(dyn Fn(Progress) + Sync),
+    stop: &AtomicBool,
+) -> Result<(Report, Vec<Entry>)> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|e| Fault::new(format!("cannot start the export's threads: {e}")))?;
     let tally = Tally { of: jobs.iter().map(|j| j.frames.len() as u32).sum(), ..Tally::default() };
     let mut report = Report::default();
+    let mut files = Vec::new();
     for job in jobs {
         for (path, text) in &job.texts {
+            files.push(Entry::of(within(&job.root, path), text.as_bytes()));
             if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
                 report.kept += 1;
             } else {
@@ -58,7 +66,7 @@ pub fn run(jobs: &[Job], threads: usize, progress: &(dyn Fn(Progress) + Sync), s
                 report.bytes += text.len() as u64;
             }
         }
-        if job.formats.is_empty() {
+        if job.formats.is_empty() || job.frames.is_empty() {
             continue;
         }
         std::fs::create_dir_all(&job.folder)
@@ -66,13 +74,13 @@ pub fn run(jobs: &[Job], threads: usize, progress: &(dyn Fn(Progress) + Sync), s
         if job.whole {
             report.removed += remove_left_over(job);
         }
-        pool.install(|| write_frames(job, &tally, progress, stop))?;
+        files.extend(pool.install(|| write_frames(job, &tally, progress, stop))?);
     }
     report.written += tally.written.load(Ordering::Relaxed);
     report.kept += tally.kept.load(Ordering::Relaxed);
     report.bytes += tally.bytes.load(Ordering::Relaxed);
     report.stopped = stop.load(Ordering::Relaxed) && tally.done.load(Ordering::Relaxed) < tally.of;
-    Ok(report)
+    Ok((report, files))
 }
 
 #[derive(Default)]
@@ -90,16 +98,24 @@ impl Tally {
         progress(Progress { done, of: self.of });
     }
 
-    fn keep_or_write(&self, path: &Path, right: bool, bytes: impl FnOnce() -> Result<Vec<u8>>) -> Result<()> {
-        if right {
+    /// Keeps what is there already where it is right, and says what is there then.
+    fn keep_or_write(
+        &self,
+        job: &Job,
+        path: &Path,
+        right: Option<Vec<u8>>,
+        bytes: impl FnOnce() -> Result<Vec<u8>>,
+    ) -> Result<Entry> {
+        let name = within(&job.root, path);
+        if let Some(there) = right {
             self.kept.fetch_add(1, Ordering::Relaxed);
-            return Ok(());
+            return Ok(Entry::of(name, &there));
         }
         let bytes = bytes()?;
         replace(path, &bytes).map_err(elsewhere)?;
         self.written.fetch_add(1, Ordering::Relaxed);
         self.bytes.fetch_add(bytes.len() as u64, Ordering::Relaxed);
-        Ok(())
+        Ok(Entry::of(name, &bytes))
     }
 }
 
@@ -124,7 +140,12 @@ impl Job {
 }
 
 /// Writes the frames of a job: each thread its own stretch, for neighbours have most in common.
-fn write_frames(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), stop: &AtomicBool) -> Result<()> {
+fn write_frames(
+    job: &Job,
+    tally: &Tally,
+    progress: &(dyn Fn(Progress) + Sync),
+    stop: &AtomicBool,
+) -> Result<Vec<Entry>> {
     let svg = job.formats.contains(&Format::Svg);
     let png = job.formats.contains(&Format::Png);
     let pose = |frame| rounded(&job.timeline.pose(job.timeline.time_of(frame)));
@@ -136,12 +157,12 @@ fn write_frames(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), 
     };
     let clip = ClipOf { job, coder: OnceLock::new() };
     let stretch = frames.first.len().div_ceil(rayon::current_num_threads()).max(1);
-    let keys: Vec<Vec<String>> = frames
+    let stretches: Vec<(Vec<Entry>, Vec<Made>)> = frames
         .first
         .par_chunks(stretch)
         .map(|stretch| {
             let mut coder = None;
-            let mut keys = Vec::with_capacity(stretch.len());
+            let (mut vectors, mut rasters) = (Vec::new(), Vec::with_capacity(stretch.len()));
             for frame in stretch {
                 if stop.load(Ordering::Relaxed) {
                     break;
@@ -150,39 +171,59 @@ fn write_frames(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), 
                 if svg {
                     let path = job.path_of(*frame, Format::Svg);
                     let text = to_svg(&drawing, job.size[0], job.size[1]).into_bytes();
-                    let right = std::fs::read(&path).is_ok_and(|old| old == text);
-                    tally.keep_or_write(&path, right, || Ok(text))?;
+                    let right = std::fs::read(&path).ok().filter(|old| *old == text);
+                    vectors.push(tally.keep_or_write(job, &path, right, || Ok(text))?);
                 }
                 if png {
                     let path = job.path_of(*frame, Format::Png);
                     let key = key_of(&drawing, job.size);
-                    tally.keep_or_write(&path, has_key(&path, &key), || clip.encode(&mut coder, &drawing, &key))?;
-                    keys.push(key);
+                    let right = with_key(&path, &key);
+                    let entry = tally.keep_or_write(job, &path, right, || clip.encode(&mut coder, &drawing, &key))?;
+                    rasters.push(Made { key, entry });
                 }
                 tally.step(progress);
             }
-            Ok(keys)
+            Ok((vectors, rasters))
         })
         .collect::<Result<_>>()?;
+    let (vectors, rasters): (Vec<Vec<Entry>>, Vec<Vec<Made>>) = stretches.into_iter().unzip();
+    let mut files: Vec<Entry> = vectors.into_iter().flatten().collect();
     if stop.load(Ordering::Relaxed) {
-        return Ok(());
+        return Ok(files);
     }
-    let keys: Vec<String> = keys.into_iter().flatten().collect();
-    frames.others.par_iter().try_for_each(|(frame, like)| {
+    let made: Vec<Made> = rasters.into_iter().flatten().collect();
+    let others = frames.others.par_iter().map(|(frame, like)| {
         if stop.load(Ordering::Relaxed) {
-            return Ok(());
+            return Ok(None);
         }
         let path = job.path_of(*frame, Format::Png);
-        if has_key(&path, &keys[*like]) {
-            tally.kept.fetch_add(1, Ordering::Relaxed);
-        } else {
-            let bytes = repeat(&job.path_of(frames.first[*like], Format::Png), &path, job.dedupe).map_err(elsewhere)?;
-            tally.written.fetch_add(1, Ordering::Relaxed);
-            tally.bytes.fetch_add(bytes, Ordering::Relaxed);
-        }
+        let name = within(&job.root, &path);
+        let Made { key, entry } = &made[*like];
+        let entry = match with_key(&path, key) {
+            Some(there) => {
+                tally.kept.fetch_add(1, Ordering::Relaxed);
+                Entry::of(name, &there)
+            }
+            None => {
+                let first = job.path_of(frames.first[*like], Format::Png);
+                let bytes = repeat(&first, &path, job.dedupe).map_err(elsewhere)?;
+                tally.written.fetch_add(1, Ordering::Relaxed);
+                tally.bytes.fetch_add(bytes, Ordering::Relaxed);
+                Entry { path: name, ..entry.clone() }
+            }
+        };
         tally.step(progress);
-        Ok(())
-    })
+        Ok(Some(entry))
+    });
+    let others: Vec<Option<Entry>> = others.collect::<Result<_>>()?;
+    files.extend(made.into_iter().map(|m| m.entry).chain(others.into_iter().flatten()));
+    Ok(files)
+}
+
+/// A PNG file that is there.
+struct Made {
+    key: String,
+    entry: Entry,
 }
 
 /// What the PNG files of a clip have in common, learned when the first of them is to be written.
@@ -218,9 +259,9 @@ impl ClipOf<'_> {
     }
 }
 
-/// Whether a file is a whole PNG with that key.
-fn has_key(path: &Path, key: &str) -> bool {
-    std::fs::read(path).is_ok_and(|old| decode_key(&old).as_deref() == Some(key))
+/// A file that is a whole PNG with that key.
+fn with_key(path: &Path, key: &str) -> Option<Vec<u8>> {
+    std::fs::read(path).ok().filter(|old| decode_key(old).as_deref() == Some(key))
 }
 
 /// Says what a PNG shows and what made it: the drawing, the size, and this version of the program and its renderer.

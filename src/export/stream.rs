@@ -1,5 +1,6 @@
 //! The frames of a moving picture, one after another: where they come from, how fast they are shown, and who watches.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::disk::{Fault, Result};
@@ -13,12 +14,15 @@ pub trait Frames {
     /// How many there are.
     fn count(&self) -> u32;
 
-    /// The frame that is shown `n`-th, counted from 0. They are asked for in order, but for a few that a palette is
-    /// learned from before. The picture is good until the next call.
+    /// Makes the frame that is shown `n`-th, counted from 0, the picture. They are asked for in order, but for a few that a
+    /// palette is learned from before. Returns the columns and rows outside which it is the same as the picture before.
     ///
     /// # Errors
     /// When it cannot be drawn.
-    fn at(&mut self, n: u32) -> Result<&Picture>;
+    fn show(&mut self, n: u32) -> Result<(Range<u32>, Range<u32>)>;
+
+    /// The picture that was asked for last.
+    fn picture(&self) -> &Picture;
 }
 
 /// Who is told how far it is, and may stop it.

@@ -10,7 +10,7 @@ pub mod line;
 
 pub use author_layer::{AuthorLayer, LayerPlace, MAX_LAYER_BYTES};
 pub use cartoon::Cartoon;
-pub use line::LineFigure;
+pub use line::{LineFigure, Widths};
 
 use crate::drawing::Drawing;
 use crate::geometry::Rect;
@@ -32,6 +32,16 @@ impl Figure {
         match self {
             Self::Line(figure) => figure.draw(pose),
             Self::Cartoon(figure) => figure.draw(pose),
+        }
+    }
+
+    /// The figure with widths of strokes that run so between control points. A cartoon's lines are drawn by a brush of
+    /// their own, which has no such points: it stays as it is.
+    #[must_use]
+    pub fn with_widths(self, widths: Widths) -> Self {
+        match self {
+            Self::Line(figure) => Self::Line(Box::new(figure.with_widths(widths))),
+            Self::Cartoon(_) => self,
         }
     }
 

@@ -3,6 +3,10 @@
 //! y grows downward, so angles run clockwise as seen. It knows nothing of faces or colours.
 
 mod brush;
+mod envelope;
+mod outline;
+mod pen;
+mod pieces;
 mod polygon;
 mod ribbon;
 mod spline;
@@ -12,8 +16,10 @@ pub use kurbo::{
     Affine, BezPath, Circle, CubicBez, Ellipse, ParamCurve, ParamCurveDeriv, ParamCurveNearest, PathEl, Point, Rect,
     Shape, Vec2,
 };
+pub use outline::outline;
+pub use pieces::outline_in_pieces;
 pub use polygon::{cut_corner, cut_corners, simplify};
-pub use ribbon::{Knot, Ribbon, outline, outline_in_pieces};
+pub use ribbon::{Knot, Ribbon};
 pub use spline::{equal_steps, flattened, spline};
 
 /// The cubic that leaves `a` with derivative `da` and reaches `b` with derivative `db` over a unit of parameter.

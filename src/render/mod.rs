@@ -17,6 +17,7 @@ mod png;
 mod print;
 mod raster;
 mod recent;
+mod reel;
 mod svg;
 mod tiles;
 mod tokens;
@@ -25,13 +26,14 @@ pub use clip::{ClipCoder, FrameCoder};
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::{Painter, Picture};
 pub use png::{decode_key, encode_png};
+pub use reel::Reel;
 pub use svg::to_svg;
 
 /// The largest picture side that is made: 16,384 pixels.
 pub const MAX_SIDE: u32 = 16_384;
 
 /// Raised whenever the same drawing comes to give other pixels, so that frames of before are written anew.
-pub const REVISION: u32 = 3;
+pub const REVISION: u32 = 4;
 
 /// How far an outline may be from the true one, in units of the drawing: a tenth of a pixel at twice its size.
 const TOLERANCE: f64 = 0.05;

@@ -126,20 +126,28 @@ impl Painter {
     /// Paints one drawing.
     #[must_use]
     pub fn paint(&mut self, drawing: &Drawing) -> Picture {
-        let mut picture = Picture { width: self.width, height: self.height, rgba: Vec::new() };
-        self.paint_into(drawing, &mut picture);
+        let opaque = self.update(drawing);
+        let mut picture = self.empty();
+        self.hand_out(&mut picture, Area::of_size(self.width, self.height), opaque);
         picture
     }
 
-    /// Paints one drawing into a picture, whose memory is used again.
-    pub fn paint_into(&mut self, drawing: &Drawing, picture: &mut Picture) {
-        let opaque = self.update(drawing);
-        let pixels = self.whole.canvas.pixels();
-        (picture.width, picture.height) = (self.width, self.height);
-        picture.rgba.resize(4 * pixels.len(), 0);
-        for (bytes, pixel) in picture.rgba.chunks_exact_mut(4).zip(pixels) {
-            let pixel = if opaque { *pixel } else { straight(*pixel) };
-            bytes.copy_from_slice(&pixel.to_le_bytes());
+    /// A picture of this size without colour.
+    pub(super) fn empty(&self) -> Picture {
+        let rgba = vec![0; self.width as usize * self.height as usize * 4];
+        Picture { width: self.width, height: self.height, rgba }
+    }
+
+    /// Copies some pixels to a picture of this size, as they are now.
+    pub(super) fn hand_out(&self, picture: &mut Picture, part: Area, opaque: bool) {
+        let stride = self.width as usize * 4;
+        for y in part.y0..part.y1 {
+            let row = &mut picture.rgba[y as usize * stride..][..stride];
+            let row = &mut row[part.x0 as usize * 4..part.x1 as usize * 4];
+            for (bytes, pixel) in row.chunks_exact_mut(4).zip(self.whole.canvas.row(y, part.x0, part.x1)) {
+                let pixel = if opaque { *pixel } else { straight(*pixel) };
+                bytes.copy_from_slice(&pixel.to_le_bytes());
+            }
         }
     }
 
@@ -225,8 +233,8 @@ impl Painter {
         }
     }
 
-    /// Brings those tiles up to date that `wanted` says.
-    pub(super) fn refresh(&mut self, plan: &Plan, wanted: impl Fn(usize) -> bool) {
+    /// Brings those tiles up to date that `wanted` says. Returns what was painted.
+    pub(super) fn refresh(&mut self, plan: &Plan, wanted: impl Fn(usize) -> bool) -> Vec<Area> {
         let Self { grid, room, still, whole, .. } = self;
         let blocks = grid.blocks(|i| wanted(i) && whole.prints[i] != Some(plan.prints[i]));
         // A block may hold a tile that is right already: it is painted again, to the same pixels.
@@ -248,6 +256,7 @@ impl Painter {
                 whole.prints[i] = Some(plan.prints[i]);
             }
         }
+        blocks
     }
 }
 

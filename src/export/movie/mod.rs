@@ -14,7 +14,7 @@ use std::path::Path;
 
 use self::ffmpeg::Ffmpeg;
 use self::yuv::Planes;
-use super::cels::{Area, changed, whole};
+use super::cels::{Area, changed, pixels};
 use super::draft::{beside, write_fault};
 use super::stream::{Frames, Outcome, Rate, Watch};
 use crate::disk::{Fault, Result, clean_line};
@@ -95,8 +95,9 @@ pub fn write(
         if watch.is_stopped() {
             return Ok(Outcome::Stopped);
         }
-        let next = whole(frames, n, size)?;
-        let area = if n == 0 { Some(Area::whole(size)) } else { changed(&shown, next, size, 4) };
+        let within = Area::of(frames.show(n)?, size);
+        let next = pixels(frames, size)?;
+        let area = if n == 0 { Some(Area::whole(size)) } else { changed(&shown, next, size[0], 4, within) };
         if let Some(area) = area {
             planes.take(next, area);
             if n == 0 {

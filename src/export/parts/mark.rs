@@ -136,6 +136,32 @@ impl Mark {
         }
     }
 
+    /// What it is made of, and the numbers that say where: marks whose kinds differ are never near each other.
+    pub(super) fn taken_apart(&self, kind: &mut Vec<u8>, places: &mut Vec<i32>) {
+        let mut path_of = |path: &Path, kind: &mut Vec<u8>| {
+            kind.extend_from_slice(&path.verbs);
+            places.extend(path.points.iter().flatten());
+        };
+        match self {
+            Self::Path { path, .. } => {
+                kind.push(b'0');
+                path_of(path, kind);
+            }
+            Self::Glow { at, radii, .. } => {
+                kind.push(b'1');
+                places.extend([at[0], at[1], radii[0], radii[1]]);
+            }
+            Self::Text { .. } => kind.push(b'2'),
+            Self::Picture { .. } => kind.push(b'3'),
+            Self::Clip { path, inside } => {
+                kind.push(b'4');
+                path_of(path, kind);
+                inside.iter().for_each(|mark| mark.taken_apart(kind, places));
+                kind.push(b'5');
+            }
+        }
+    }
+
     /// Whether it looks like another to the eye: made alike, no point further than `steps` of the grid from the other's,
     /// no colour more than a hundredth off.
     pub(super) fn is_near(&self, other: &Self, steps: i32) -> bool {

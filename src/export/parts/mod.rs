@@ -4,6 +4,7 @@
 //! Nothing here knows a figure: parts are found from the drawings of all frames. A lesson of four minutes has some
 //! thousand frames, but only some hundred mouths and some dozen eyes.
 
+mod alike;
 mod mark;
 mod split;
 mod survey;
@@ -12,7 +13,10 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 pub(super) use mark::{Mark, Path, STEPS};
-pub(super) use survey::{ABSENT, Move, Survey, Tracked};
+pub(super) use survey::{ABSENT, Move};
+use survey::{Survey, Tracked};
+
+use alike::Looks;
 
 use super::repeats::rounded;
 use crate::drawing::{Colour, Drawing, fit};
@@ -80,9 +84,22 @@ pub(super) struct Part {
     /// What it is, in a word; no two have the same.
     pub name: String,
     /// The different looks, in the order they are first seen. One of no marks is nothing.
-    pub poses: Vec<Vec<Arc<[Mark]>>>,
+    pub poses: Vec<Looks>,
+    /// The same item by item, for forms in which items are apart.
+    pub items: Vec<OneItem>,
     /// From which frame on which of them is seen.
     pub runs: Vec<(u32, u32)>,
+}
+
+/// An item of a part.
+#[derive(Debug)]
+pub(super) struct OneItem {
+    /// What the figure calls it.
+    pub name: String,
+    /// Its different looks.
+    pub states: Vec<Arc<[Mark]>>,
+    /// Which of them it has in each pose of the part; [`ABSENT`] where it is not there.
+    pub at: Vec<u32>,
 }
 
 impl Part {
@@ -98,12 +115,12 @@ impl Part {
 }
 
 /// A clip's poses, frame by frame; at least one.
-pub(super) fn poses(timeline: &Timeline) -> impl Iterator<Item = Pose> + '_ {
+fn poses(timeline: &Timeline) -> impl Iterator<Item = Pose> + '_ {
     (0..timeline.frames().max(1)).map(|frame| timeline.pose(timeline.time_of(frame)))
 }
 
 /// All items of a figure over some poses. Looks within `near` steps of the grid of each other are one.
-pub(super) fn survey(figure: &Figure, poses: impl Iterator<Item = Pose>, grid: &Grid, near: i32) -> Survey {
+fn survey(figure: &Figure, poses: impl Iterator<Item = Pose>, grid: &Grid, near: i32) -> Survey {
     let mut survey = Survey::new(grid.scale, near);
     let mut last: Option<Pose> = None;
     for pose in poses {
@@ -147,7 +164,7 @@ pub(super) fn of_poses(
 }
 
 /// The items cut into parts, and parts that move together put together.
-pub(super) fn sheets(items: &[Tracked], moves: &[Move], frames: usize) -> Vec<Sheet> {
+fn sheets(items: &[Tracked], moves: &[Move], frames: usize) -> Vec<Sheet> {
     let mut sheets: Vec<Sheet> = Vec::new();
     let mut names = HashMap::new();
     for range in split::split(items, frames) {
@@ -194,25 +211,34 @@ fn moves_of(items: &[Tracked], moves: &[Move], frames: usize) -> Vec<(u32, Move)
 }
 
 fn part_of(items: &[Tracked], frames: usize, names: &mut HashMap<String, u32>) -> Part {
-    let mut known: HashMap<Vec<u32>, u32> = HashMap::new();
-    let mut poses: Vec<Vec<Arc<[Mark]>>> = Vec::new();
-    let mut runs: Vec<(u32, u32)> = Vec::new();
+    // What is seen when, before any pose stands for another.
+    let mut known: HashMap<Vec<u32>, usize> = HashMap::new();
+    let mut all: Vec<Vec<u32>> = Vec::new();
+    let mut seen: Vec<usize> = Vec::with_capacity(frames);
     for frame in 0..frames {
         let key: Vec<u32> = items.iter().map(|i| i.at[frame]).collect();
-        let pose = match known.get(&key) {
-            Some(pose) => *pose,
-            None => {
-                let looks = items.iter().zip(&key).filter_map(|(i, at)| i.states.get(*at as usize).cloned());
-                let looks: Vec<Arc<[Mark]>> = looks.filter(|marks| !marks.is_empty()).collect();
-                let near = poses.iter().rposition(|old| near_poses(old, &looks));
-                let pose = near.unwrap_or(poses.len()) as u32;
-                known.insert(key, pose);
-                if near.is_none() {
-                    poses.push(looks);
-                }
-                pose
-            }
-        };
+        seen.push(*known.entry(key).or_insert_with_key(|key| {
+            all.push(key.clone());
+            all.len() - 1
+        }));
+    }
+    let looks = |key: &Vec<u32>| -> Looks {
+        let there = items.iter().zip(key).filter_map(|(i, at)| i.states.get(*at as usize).cloned());
+        there.filter(|marks| !marks.is_empty()).collect()
+    };
+    let distinct: Vec<Looks> = all.iter().map(looks).collect();
+    let stands = alike::standing_for(&distinct, ONE_POSE);
+    let mut numbers: HashMap<usize, u32> = HashMap::new();
+    let mut poses = Vec::new();
+    let one = |i: &Tracked| OneItem { name: i.name.clone(), states: i.states.clone(), at: Vec::new() };
+    let mut own: Vec<OneItem> = items.iter().map(one).collect();
+    let mut runs: Vec<(u32, u32)> = Vec::new();
+    for (frame, seen) in seen.iter().enumerate() {
+        let pose = *numbers.entry(stands[*seen]).or_insert_with_key(|of| {
+            poses.push(distinct[*of].clone());
+            own.iter_mut().zip(&all[*of]).for_each(|(item, at)| item.at.push(*at));
+            poses.len() as u32 - 1
+        });
         if runs.last().is_none_or(|(_, last)| *last != pose) {
             runs.push((frame as u32, pose));
         }
@@ -221,12 +247,7 @@ fn part_of(items: &[Tracked], frames: usize, names: &mut HashMap<String, u32>) -
     let times = names.entry(what.to_owned()).or_insert(0);
     *times += 1;
     let name = if *times == 1 { what.to_owned() } else { format!("{what}-{times}") };
-    Part { name, poses, runs }
-}
-
-/// Whether two poses of a part look alike.
-fn near_poses(a: &[Arc<[Mark]>], b: &[Arc<[Mark]>]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| Arc::ptr_eq(a, b) || mark::are_near(a, b, ONE_POSE))
+    Part { name, poses, items: own, runs }
 }
 
 /// A word for what changes in a part.

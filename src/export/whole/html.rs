@@ -31,6 +31,8 @@ pub(super) struct Shown<'a> {
     pub sound: Option<&'a Encoded>,
     /// Its script.
     pub phrases: Vec<Phrase>,
+    /// Whether it is written in Zhuyin, which is then its reading too.
+    pub zhuyin: bool,
 }
 
 /// What is made of clips one by one, so that only one is in memory as parts.
@@ -40,7 +42,9 @@ pub(super) struct Page {
     scripts: String,
     sounds: String,
     clips: Vec<Value>,
-    zhuyin: bool,
+    readings: bool,
+    speaks: bool,
+    zhuyin: Option<bool>,
     size: [u32; 2],
 }
 
@@ -67,7 +71,11 @@ impl Page {
         let hidden = if number == 0 { "" } else { " hidden" };
         let pieces = || clip.phrases.iter().flat_map(|p| &p.pieces);
         let lang = if pieces().all(|p| p.english) { "en" } else { "zh" };
-        self.zhuyin |= pieces().any(|p| !p.zhuyin.is_empty());
+        self.speaks |= !clip.phrases.is_empty();
+        if pieces().any(|p| !p.zhuyin.is_empty()) {
+            self.readings = true;
+            self.zhuyin.get_or_insert(clip.zhuyin);
+        }
         let _ = writeln!(self.scripts, "<section id=\"said-{number}\" lang=\"{lang}\"{hidden}>");
         if clip.phrases.is_empty() {
             self.scripts.push_str("<p class=\"none\" lang=\"en\">Nothing is said in this clip.</p>\n");
@@ -85,7 +93,15 @@ impl Page {
             .map(|(i, name)| format!("<button type=\"button\" data-clip=\"{i}\">{}</button>\n", escaped(name)))
             .collect();
         let many = if self.names.len() > 1 { "" } else { " hidden" };
-        let readings = if self.zhuyin { "" } else { " hidden" };
+        let readings = if self.readings { "" } else { " hidden" };
+        let reading = if self.zhuyin == Some(true) { "zhuyin" } else { "pinyin" };
+        let choices: String = [("pinyin", "Pinyin"), ("zhuyin", "Zhuyin"), ("none", "None")]
+            .map(|(value, word)| {
+                let chosen = if value == reading { " selected" } else { "" };
+                format!("<option value=\"{value}\"{chosen}>{word}</option>")
+            })
+            .concat();
+        let silent = if self.speaks { "" } else { " silent" };
         // Inside a script element only its end could be taken for markup.
         let data = json!(self.clips).to_string().replace('<', "\\u003c");
         let [width, height] = self.size;
@@ -97,6 +113,9 @@ impl Page {
             "MANY" => many.to_owned(),
             "TABS" => tabs.clone(),
             "READINGS" => readings.to_owned(),
+            "READING" => reading.to_owned(),
+            "CHOICES" => choices.clone(),
+            "SILENT" => silent.to_owned(),
             "SCRIPTS" => self.scripts.clone(),
             "SOUNDS" => self.sounds.clone(),
             "DATA" => data.clone(),
@@ -118,7 +137,7 @@ pub(super) fn filled(template: &str, value: &dyn Fn(&str) -> String) -> String {
     out + rest
 }
 
-/// A paragraph a sentence, a button a syllable.
+/// A paragraph a sentence, and in it a cell a syllable; what is written next to a syllable stays on its line.
 fn write_script(out: &mut String, phrases: &[Phrase]) {
     let mut open = None;
     for phrase in phrases {
@@ -140,15 +159,17 @@ fn write_script(out: &mut String, phrases: &[Phrase]) {
 
 fn write_piece(out: &mut String, piece: &Piece) {
     let lang = if piece.english { " lang=\"en\"" } else { "" };
-    let _ = write!(
-        out,
-        "{}<span role=\"button\" tabindex=\"-1\" data-from=\"{:.3}\" data-to=\"{:.3}\"{lang}>{}</span>{}",
-        escaped(&piece.before),
-        piece.start,
-        piece.end,
-        ruby(piece),
-        escaped(&piece.after)
-    );
+    let after = piece.after.trim_end();
+    let is_alone = piece.before.is_empty() && after.is_empty();
+    if !is_alone {
+        let _ = write!(out, "<span class=\"on\">{}", escaped(&piece.before));
+    }
+    let (start, end) = (piece.start, piece.end);
+    let _ = write!(out, "<span data-from=\"{start:.3}\" data-to=\"{end:.3}\"{lang}>{}</span>", ruby(piece));
+    if !is_alone {
+        let _ = write!(out, "{}</span>", escaped(after));
+    }
+    out.push_str(&escaped(&piece.after[after.len()..]));
 }
 
 /// A piece under its readings.

@@ -21,9 +21,10 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::parts::{self, Grid, Parts};
-use super::plan::{checked_output, chosen_clips, out_folder, plan};
-use super::{Format, Report, Request, said};
+use super::asked::within;
+use super::parts::{self, Parts};
+use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
+use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
 use crate::disk::{Result, write_whole};
 use crate::project::{Clip, Lesson, Output};
 use crate::script::System;
@@ -75,21 +76,20 @@ struct File {
 
 /// The whole files of an export, clip by clip and then the lesson's. Nothing is written yet.
 ///
-/// Of an export in shards the first one writes them. `--frames` has no say in them.
+/// Where the work is shared they belong to the part that has the clip's first frame, and those of all clips together to
+/// the part that has the first clip's. `--frames` has a say in moving pictures alone.
 ///
 /// # Errors
 /// When the clip that is asked for is not there, or size or frame rate cannot be used.
 pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
     checked_output(lesson, request)?;
     let clips = chosen_clips(lesson, request)?;
-    if !request.shard.is_first() {
-        return Ok(Vec::new());
-    }
     let out = out_folder(lesson, request);
+    let is_ours = |place: usize| request.share_of(place).is_none_or(|share| share.whole_files);
     let wanted = |format: &&Format| !format.is_frames() && !format.is_text();
     let formats: Vec<Format> = request.formats.iter().filter(wanted).copied().collect();
     let mut all = Vec::new();
-    for number in &clips {
+    for (_, number) in clips.iter().enumerate().filter(|(place, _)| is_ours(*place)) {
         let name = &lesson.clips[*number].entry.name;
         // A clip that is asked for by name has a page and a book of its own.
         let own = |format: &&Format| !format.is_of_the_lesson() || request.clip.is_some();
@@ -100,7 +100,7 @@ pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
             clips: vec![*number],
         }));
     }
-    if request.clip.is_none() {
+    if request.clip.is_none() && is_ours(0) {
         let together = formats.iter().filter(|f| f.is_of_the_lesson());
         all.extend(together.map(|format| Whole {
             format: *format,
@@ -112,8 +112,32 @@ pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
     Ok(all)
 }
 
-/// Writes whole files one after the other; `each` is told before each of them, with its number from 0. `stop` ends it
-/// between two.
+impl Whole {
+    /// The files that it becomes.
+    pub(super) fn paths(&self, lesson: &Lesson) -> Vec<PathBuf> {
+        let with = |endings: &[&str]| endings.iter().map(|ending| with_ending(&self.base, ending)).collect();
+        match self.format {
+            Format::Smil => with(&["svg"]),
+            Format::Lottie => with(&["json"]),
+            Format::Layers => with(&["layers.svg"]),
+            Format::Ratios => with(&["ratios.csv", "ratios.json"]),
+            Format::Rhubarb => shapes::RHUBARB.iter().map(|f| shapes::rhubarb_path(&self.base, *f)).collect(),
+            Format::Moho => with(&[crate::timing::Format::Moho.extension()]),
+            Format::Mouths => mouths::paths(&self.base),
+            Format::Wav => match self.clips.first().and_then(|clip| lesson.clips[*clip].sound.as_ref()) {
+                Some(_) => with(&["wav"]),
+                None => Vec::new(),
+            },
+            Format::Html | Format::Epub | Format::Lpr | Format::Mp4 | Format::Webm | Format::Gif | Format::Apng => {
+                with(&[self.format.name()])
+            }
+            Format::Svg | Format::Png | Format::TextGrid | Format::Srt | Format::Vtt | Format::Poses => Vec::new(),
+        }
+    }
+}
+
+/// Writes whole files one after the other. `tell` hears before each of them, and of moving pictures frame by frame. `stop`
+/// ends it between two files or frames; what is missing then was not written.
 ///
 /// # Errors
 /// When a figure cannot be used or a file cannot be written. Every file that is there is whole.
@@ -121,20 +145,26 @@ pub fn write_wholes(
     lesson: &Lesson,
     request: &Request,
     wholes: &[Whole],
-    each: &mut dyn FnMut(usize, &Whole),
+    ledger: &mut Ledger,
+    tell: &dyn Fn(&Whole, Progress),
     stop: &AtomicBool,
 ) -> Result<Vec<Written>> {
+    let root = root_folder(lesson, request);
     let mut workshop = Workshop::new(lesson, request)?;
     let mut done = Vec::new();
-    for (number, whole) in wholes.iter().enumerate() {
+    for whole in wholes {
         if stop.load(Ordering::Relaxed) {
             break;
         }
-        each(number, whole);
-        let mut written = Written::default();
+        tell(whole, Progress { done: 0, of: 1 });
         if whole.format.is_moving() {
-            workshop.film(whole, stop, &mut written)?;
+            match workshop.film(whole, ledger, tell, stop)? {
+                Some(written) => done.push(written),
+                None => break,
+            }
+            continue;
         }
+        let mut written = Written::default();
         for file in workshop.make(whole, &mut written.notes)? {
             if std::fs::read(&file.path).is_ok_and(|old| old == file.bytes) {
                 written.report.kept += 1;
@@ -143,6 +173,7 @@ pub fn write_wholes(
                 written.report.written += 1;
                 written.report.bytes += file.bytes.len() as u64;
             }
+            ledger.add([Entry::of(within(&root, &file.path), &file.bytes)]);
             written.paths.push(file.path);
         }
         done.push(written);
@@ -198,14 +229,17 @@ impl<'a> Workshop<'a> {
             Format::Moho => shapes::moho(self.shapes(first, notes), self.request.fps.unwrap_or(MOHO_FPS), base),
             Format::Ratios => ratios::tables(clip, &lesson.timeline(first, Some(self.output.fps)), base),
             Format::Lpr => ratios::compact(clip, &lesson.timeline(first, Some(self.output.fps)), base)?,
-            Format::Lottie => one("json", self.lottie(first)?.into_bytes()),
+            Format::Lottie => {
+                let parts = self.parts(first)?;
+                one("json", lottie::lottie(&parts, &self.title(clip)).into_bytes())
+            }
             Format::Mouths => {
-                let figure = lesson.figure_of(&clip.entry)?;
+                let figure = self.request.figure_of(lesson, &clip.entry)?;
                 let preset = lesson.mouths_of(&clip.entry);
                 mouths::mouths(&figure, preset, self.output.size, self.request.background, base)?
             }
             Format::Layers => {
-                let figure = lesson.figure_of(&clip.entry)?;
+                let figure = self.request.figure_of(lesson, &clip.entry)?;
                 let (preset, ground) = (lesson.mouths_of(&clip.entry), self.request.background);
                 let text = layers::layered(&figure, preset, self.output.size, ground, &self.title(clip));
                 one("layers.svg", text.into_bytes())
@@ -217,33 +251,24 @@ impl<'a> Workshop<'a> {
         Ok(files)
     }
 
-    /// Writes a moving picture as it is painted.
-    fn film(&self, whole: &Whole, stop: &AtomicBool, written: &mut Written) -> Result<()> {
-        let Some(clip) = whole.clip.clone() else { return Ok(()) };
-        let one = Request { formats: vec![Format::Png], clip: Some(clip), ..self.request.clone() };
-        let jobs = plan(self.lesson, &one)?;
-        let (Some(job), Some(number)) = (jobs.first(), whole.clips.first()) else { return Ok(()) };
-        moving::moving(job, &self.lesson.clips[*number], whole.format, &whole.base, stop, written)
-    }
-
-    fn lottie(&self, clip: usize) -> Result<String> {
-        let own = &self.lesson.clips[clip];
-        let figure = self.lesson.figure_of(&own.entry)?;
-        let timeline = self.lesson.timeline(clip, Some(self.output.fps));
-        let first = figure.draw(&timeline.pose(0.0));
-        let grid = Grid::new(first.view, self.output.size);
-        let survey = parts::survey(&figure, parts::poses(&timeline), &grid, lottie::ONE_LOOK);
-        let frames = survey.frames;
-        let (items, moves) = survey.done();
-        Ok(lottie::lottie(&lottie::Film {
-            title: &self.title(own),
-            grid,
-            fps: self.output.fps,
-            background: self.request.background.unwrap_or(first.background),
-            items: &items,
-            moves: &moves,
-            frames,
-        }))
+    /// Writes a moving picture as it is painted; none where it was stopped. All frames that were asked for are in it,
+    /// whatever share of them this part has.
+    fn film(
+        &self,
+        whole: &Whole,
+        ledger: &mut Ledger,
+        tell: &dyn Fn(&Whole, Progress),
+        stop: &AtomicBool,
+    ) -> Result<Option<Written>> {
+        let alone =
+            Request { formats: vec![Format::Png], clip: whole.clip.clone(), shares: None, ..self.request.clone() };
+        let jobs = plan(self.lesson, &alone)?;
+        let (Some(job), Some(number)) = (jobs.first(), whole.clips.first()) else { return Ok(None) };
+        let of = u32::try_from(job.frames.len()).unwrap_or(u32::MAX);
+        let progress = |done| tell(whole, Progress { done, of });
+        let path = with_ending(&whole.base, whole.format.name());
+        let film = moving::Moving { job, clip: &self.lesson.clips[*number], format: whole.format };
+        film.write(&path, ledger, &Watch { progress: &progress, stop })
     }
 
     /// The page of some clips.
@@ -261,6 +286,7 @@ impl<'a> Workshop<'a> {
                 parts: &parts,
                 sound: sound.as_deref(),
                 phrases: said::phrases(clip),
+                zhuyin: clip.entry.script_system == Some(System::Zhuyin),
             });
         }
         Ok(page.done(&lesson.manifest.title))
@@ -276,7 +302,7 @@ impl<'a> Workshop<'a> {
             let parts = self.parts(*number)?;
             let (title, description) = (self.title(clip), self.description(clip));
             let words = smil::Words { title: &title, description: &description };
-            let mut first = lesson.figure_of(&clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
+            let mut first = self.request.figure_of(lesson, &clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
             first.background = self.request.background.unwrap_or(first.background);
             chapters.push(epub::Chapter {
                 svg: smil::animated(&parts, &words, None),
@@ -287,11 +313,12 @@ impl<'a> Workshop<'a> {
                 sound,
                 phrases: said::phrases(clip),
                 zhuyin: clip.entry.script_system == Some(System::Zhuyin),
+                fps: parts.fps,
                 size: self.output.size,
             });
         }
         let figure = match clips.first() {
-            Some(first) => lesson.figure_of(&lesson.clips[*first].entry)?,
+            Some(first) => self.request.figure_of(lesson, &lesson.clips[*first].entry)?,
             None => return Ok(Vec::new()),
         };
         epub::book(&lesson.manifest.title, &figure, &chapters)
@@ -315,7 +342,7 @@ impl<'a> Workshop<'a> {
         if let Some((_, parts)) = self.parts.as_ref().filter(|(number, _)| *number == clip) {
             return Ok(Rc::clone(parts));
         }
-        let figure = self.lesson.figure_of(&self.lesson.clips[clip].entry)?;
+        let figure = self.request.figure_of(self.lesson, &self.lesson.clips[clip].entry)?;
         let timeline = self.lesson.timeline(clip, Some(self.output.fps));
         let parts = Rc::new(parts::parts(&figure, &timeline, self.output.size, self.request.background));
         self.parts = Some((clip, Rc::clone(&parts)));

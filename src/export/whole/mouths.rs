@@ -1,7 +1,7 @@
 //! The nine mouth shapes of a face as pictures: for programs that put a mouth chart together with times, as Moho and
 //! Papagayo do.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::File;
 use crate::disk::Result;
@@ -10,6 +10,18 @@ use crate::figure::Figure;
 use crate::plot;
 use crate::pose::{MouthPose, MouthPreset, MouthShape, Pose};
 use crate::render::{Painter, encode_png, to_svg};
+
+/// The files of [`mouths`].
+pub(super) fn paths(base: &Path) -> Vec<PathBuf> {
+    let folder = super::with_ending(base, "mouths");
+    let shapes = MouthShape::ALL.map(|shape| shape.to_string());
+    let names = [REST.to_owned()].into_iter().chain(shapes).chain([CHART.to_owned()]);
+    names.flat_map(|name| ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")))).collect()
+}
+
+/// What the mouth at rest and the chart are called.
+const REST: &str = "rest";
+const CHART: &str = "chart";
 
 /// Every shape and the mouth at rest, each as SVG and PNG of the whole picture, so that they lie over each other; and a
 /// chart of them all.
@@ -25,7 +37,7 @@ pub(super) fn mouths(
 ) -> Result<Vec<File>> {
     let folder = super::with_ending(base, "mouths");
     let rest = Pose::default();
-    let mut poses = vec![("rest".to_owned(), rest)];
+    let mut poses = vec![(REST.to_owned(), rest)];
     poses.extend(
         MouthShape::ALL.map(|s| (s.to_string(), Pose { mouth: MouthPose::of(s, preset), shape: Some(s), ..rest })),
     );
@@ -45,8 +57,8 @@ pub(super) fn mouths(
     let cells: Vec<_> = poses.iter().map(|(name, pose)| (name.clone(), close.draw(pose), None)).collect();
     let chart: Drawing = plot::faces("Mouth shapes", &cells);
     let [width, height] = [chart.view.width(), chart.view.height()].map(|v| v.round() as u32);
-    files.push(File { path: folder.join("chart.svg"), bytes: to_svg(&chart, width, height).into_bytes() });
+    files.push(File { path: folder.join(format!("{CHART}.svg")), bytes: to_svg(&chart, width, height).into_bytes() });
     let painted = Painter::new(width, height)?.paint(&chart);
-    files.push(File { path: folder.join("chart.png"), bytes: encode_png(&painted, "")? });
+    files.push(File { path: folder.join(format!("{CHART}.png")), bytes: encode_png(&painted, "")? });
     Ok(files)
 }

@@ -1,23 +1,26 @@
 //! A clip as one moving picture: its frames painted one after the other and handed to whoever packs them.
 
-use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::ops::Range;
+use std::path::Path;
 
-use super::{Written, with_ending};
+use sha2::{Digest, Sha256};
+
+use super::Written;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::export::apng::{self, ApngForm, Depth};
 use crate::export::gif::{self, GifForm};
+use crate::export::manifest::hex;
 use crate::export::movie::{self, Container, Film};
-use crate::export::{Format, Frames, Job, Outcome, Watch};
+use crate::export::{Format, Frames, Job, Ledger, Outcome, Watch};
 use crate::project::Clip;
-use crate::render::{Painter, Picture};
+use crate::render::{Picture, REVISION, Reel};
+use crate::timing::{self, Tier, Timing};
 
 /// The frames of a job, painted as they are asked for.
 struct Painted<'a> {
     job: &'a Job,
-    painter: Painter,
-    picture: Option<Picture>,
+    reel: Reel,
 }
 
 impl Frames for Painted<'_> {
@@ -29,64 +32,95 @@ impl Frames for Painted<'_> {
         u32::try_from(self.job.frames.len()).unwrap_or(u32::MAX)
     }
 
-    fn at(&mut self, n: u32) -> Result<&Picture> {
+    fn show(&mut self, n: u32) -> Result<(Range<u32>, Range<u32>)> {
         let frame = self.job.frames.get(n as usize).ok_or_else(|| Fault::new("there is no such frame"))?;
-        Ok(self.picture.insert(self.painter.paint(&self.job.drawing(*frame))))
+        Ok(self.reel.show(&self.job.drawing(*frame)))
+    }
+
+    fn picture(&self) -> &Picture {
+        self.reel.picture()
     }
 }
 
-/// Writes a clip's frames as a video, a GIF or an animated PNG; nothing where it was stopped.
-pub(super) fn moving(
-    job: &Job,
-    clip: &Clip,
-    format: Format,
-    base: &Path,
-    stop: &AtomicBool,
-    written: &mut Written,
-) -> Result<()> {
-    let [width, height] = job.size;
-    let mut frames = Painted { job, painter: Painter::new(width, height)?, picture: None };
-    let watch = Watch { progress: &|_| {}, stop };
-    let ground = match job.background {
-        Some(background) => background,
-        None => job.drawing(0).background,
-    };
-    let opaque = ground.is_some_and(|c| c.a == 255);
-    let fps = job.timeline.fps();
-    let film = |transparent| {
-        (
-            Film {
-                fps,
-                shown: &job.frames,
-                sound: clip.sound.as_deref(),
-                captions: None,
-                title: &job.title,
-                transparent,
-            },
-            clip.phrases(),
-        )
-    };
-    let path: PathBuf;
-    let outcome = match format {
-        Format::Gif => {
-            path = with_ending(base, "gif");
-            gif::write(&path, &mut frames, GifForm { fps, plays: 0, matte: Colour::WHITE }, &watch)?
+/// A clip to be written as a video, a GIF or an animated PNG.
+pub(super) struct Moving<'a> {
+    pub(super) job: &'a Job,
+    pub(super) clip: &'a Clip,
+    pub(super) format: Format,
+}
+
+impl Moving<'_> {
+    /// Writes it, unless it is there already as the same was made before; none where it was stopped.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(super) fn write(&self, path: &Path, ledger: &mut Ledger, watch: &Watch<'_>) -> Result<Option<Written>> {
+        let captions = self.clip.phrases();
+        let key = self.key(&captions);
+        let mut written = Written { paths: vec![path.to_owned()], ..Written::default() };
+        if let Some(entry) = ledger.kept(path, &key) {
+            ledger.keep(entry)?;
+            written.report.kept = 1;
+            return Ok(Some(written));
         }
-        Format::Apng => {
-            path = with_ending(base, "apng");
-            apng::write(&path, &mut frames, ApngForm { fps, plays: 0, depth: Depth::Palette, opaque }, &watch)?
-        }
-        _ => {
-            let container = if format == Format::Webm { Container::WebM } else { Container::Mp4 };
-            path = with_ending(base, format.name());
-            let (film, phrases) = film(!opaque);
-            movie::write(&path, container, &mut frames, &Film { captions: Some(&phrases), ..film }, &watch)?
-        }
-    };
-    if let Outcome::Written(bytes) = outcome {
-        written.report.written += 1;
-        written.report.bytes += bytes;
-        written.paths.push(path);
+        let Outcome::Written(bytes) = self.film(path, &captions, watch)? else { return Ok(None) };
+        ledger.made(path, &key)?;
+        written.report.written = 1;
+        written.report.bytes = bytes;
+        Ok(Some(written))
     }
-    Ok(())
+
+    fn film(&self, path: &Path, captions: &Tier, watch: &Watch<'_>) -> Result<Outcome> {
+        let job = self.job;
+        let [width, height] = job.size;
+        let mut frames = Painted { job, reel: Reel::new(width, height)? };
+        let (fps, opaque) = (job.timeline.fps(), self.is_opaque());
+        let container = match self.format {
+            Format::Gif => {
+                return gif::write(path, &mut frames, GifForm { fps, plays: 0, matte: Colour::WHITE }, watch);
+            }
+            Format::Apng => {
+                let form = ApngForm { fps, plays: 0, depth: Depth::Palette, opaque };
+                return apng::write(path, &mut frames, form, watch);
+            }
+            Format::Webm => Container::WebM,
+            _ => Container::Mp4,
+        };
+        let film = Film {
+            fps,
+            shown: &job.frames,
+            sound: self.clip.sound.as_deref(),
+            captions: Some(captions),
+            title: &job.title,
+            transparent: !opaque,
+        };
+        movie::write(path, container, &mut frames, &film, watch)
+    }
+
+    fn is_opaque(&self) -> bool {
+        let ground = self.job.background.unwrap_or_else(|| self.job.drawing(0).background);
+        ground.is_some_and(|c| c.a == 255)
+    }
+
+    /// What it is made from, by everything that changes it but ffmpeg's version.
+    fn key(&self, captions: &Tier) -> String {
+        let job = self.job;
+        let mut sum = Sha256::new();
+        let [width, height] = job.size;
+        let form = format!("{} {width}x{height} {} {}", self.format.name(), job.timeline.fps(), self.is_opaque());
+        sum.update(format!("{} {REVISION} {form} {}\n", env!("CARGO_PKG_VERSION"), job.title));
+        for frame in &job.frames {
+            sum.update(frame.to_le_bytes());
+            sum.update(job.drawing(*frame).fingerprint().to_le_bytes());
+        }
+        if matches!(self.format, Format::Mp4 | Format::Webm) {
+            let said = Timing { duration: captions.end(), tiers: vec![captions.clone()], guessed: false };
+            sum.update(timing::write(&said, timing::Format::WebVtt));
+            if let Some(sound) = &self.clip.sound {
+                sum.update(sound.rate.to_le_bytes());
+                sound.samples.iter().for_each(|s| sum.update(s.to_le_bytes()));
+            }
+        }
+        hex(&sum.finalize())[..32].to_owned()
+    }
 }

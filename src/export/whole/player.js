@@ -94,16 +94,16 @@
   }
 
   // What holds at a frame.
-  function at(runs, frame) {
+  function held(runs, frame) {
     let low = 0, high = runs.length;
     while (high - low > 1) { const mid = low + high >> 1; if (runs[mid][0] <= frame) low = mid; else high = mid; }
     return runs[low];
   }
 
   function paintLayer(b, layer, frame) {
-    const pose = layer.poses[at(layer.runs, frame)[1]];
+    const pose = layer.poses[held(layer.runs, frame)[1]];
     pose.steps ||= steps(pose.kind, pose.values);
-    const [, x, y, turn] = at(layer.moves, frame);
+    const [, x, y, turn] = held(layer.moves, frame);
     const moved = x || y || turn;
     if (moved) { b.save(); b.translate(x, y); b.rotate(turn * Math.PI / 180000); }
     pose.steps.forEach(step => step(b));
@@ -142,6 +142,7 @@
   function paint(frame) {
     if (!clip.layers) return;
     shown = frame;
+    canvas.dataset.frame = frame;
     if (!ground) paintGround();
     brush.setTransform(1, 0, 0, 1, 0, 0);
     brush.clearRect(0, 0, canvas.width, canvas.height);
@@ -169,15 +170,33 @@
   function play(to = null) {
     until = to;
     root.classList.add('begun');
-    if (now() >= clip.duration - 0.01) go(0);
-    if (sound) { sound.playbackRate = rate(); sound.preservesPitch = true; sound.play().catch(() => say('The sound cannot be played.')); }
-    else { silent.playing = true; silent.since = performance.now(); started(); }
+    if (to === null && now() >= clip.duration - 0.01) go(loops() && sentence ? sentence.from : 0);
+    if (!sound) { silent.playing = true; silent.since = performance.now(); started(); return; }
+    const own = sound;
+    own.playbackRate = rate();
+    own.preservesPitch = true;
+    own.play().then(() => notice(''), error => {
+      if (own !== sound || error.name === 'AbortError') return;
+      if (error.name === 'NotAllowedError') notice('The browser holds the sound back. Press play once more.');
+      else mute(true);
+    });
   }
   function pause() {
     until = null;
     if (sound) sound.pause(); else { silent.time = now(); silent.playing = false; stopped(); }
   }
   const toggle = () => isPlaying() ? pause() : play();
+
+  // Where the sound cannot be played the face still goes, by the page's clock.
+  function mute(playing) {
+    const time = sound?.currentTime || 0;
+    clip.mute = true;
+    sound = null;
+    silent.time = time;
+    silent.playing = false;
+    notice('This browser cannot play the sound of this clip. The face moves without it.');
+    if (playing) play(until); else stopped();
+  }
 
   function started() {
     root.classList.add('playing');
@@ -188,30 +207,43 @@
     root.classList.remove('playing');
     find('play').setAttribute('aria-label', 'Play');
     show(now());
+    spoken();
   }
 
   const loops = () => find('loop').getAttribute('aria-pressed') === 'true';
   let sentence = null;
-  function tick() {
-    if (!isPlaying()) return;
+
+  // Stops or turns back where it should; whether it goes on.
+  function goesOn() {
+    if (!isPlaying()) return false;
     const time = now();
-    if (until !== null && time >= until) { pause(); go(until - 0.001); return; }
-    if (until === null && loops() && sentence && time >= sentence.to) { go(sentence.from); }
-    if (!sound && time >= clip.duration) { silent.time = clip.duration; silent.playing = false; stopped(); return; }
-    show(time);
+    if (until !== null && time >= until) { const end = until; pause(); go(end - 0.001); return false; }
+    if (until === null && loops() && sentence && time >= sentence.end) go(sentence.begin);
+    if (!sound && time >= clip.duration) { ended(); return isPlaying(); }
+    return true;
+  }
+  function ended() {
+    if (!sound) { silent.time = clip.duration; silent.playing = false; }
+    if (until === null && loops() && sentence) { go(sentence.begin); play(); } else { until = null; stopped(); }
+  }
+  function tick() {
+    if (!goesOn()) return;
+    // What is painted now is seen at the next refresh of the screen, a sixtieth of a second from now.
+    show(now(), rate() / 60);
     requestAnimationFrame(tick);
   }
 
   const clock = s => Math.floor(s / 60) + ':' + String(Math.floor(s % 60)).padStart(2, '0');
+  const spoken = () => find('seek').setAttribute('aria-valuetext', clock(now()) + ' of ' + clock(clip.duration));
+  const at = time => pieces.findLast(p => p.from <= time + 0.0005) || null;
   let lit = null;
-  function show(time) {
-    const frame = Math.min(clip.frames - 1, Math.floor(time * clip.fps + 1e-6));
+  function show(time, ahead = 0) {
+    // The nearest frame: neither before the sound nor behind it by more than half of one.
+    const frame = Math.max(0, Math.min(clip.frames - 1, Math.round((time + ahead) * clip.fps - 1e-6)));
     if (frame !== shown) paint(frame);
     find('seek').value = time;
-    find('seek').setAttribute('aria-valuetext', clock(time) + ' of ' + clock(clip.duration));
     find('time').value = clock(time) + ' / ' + clock(clip.duration);
-    const piece = pieces.findLast(p => p.from <= time + 0.0005) || null;
-    const said = piece && time < piece.to ? piece : null;
+    const piece = at(time), said = piece && time < piece.to ? piece : null;
     if (said !== lit) {
       if (lit) lit.element.classList.remove('lit');
       if (said) said.element.classList.add('lit');
@@ -219,7 +251,6 @@
     }
     const own = (piece || pieces[0] || {}).sentence || null;
     if (own !== sentence && !(loops() && isPlaying() && until === null && sentence)) enter(own);
-    if (piece && document.activeElement?.getAttribute('role') !== 'button') rove(piece.element);
   }
 
   function enter(own) {
@@ -227,46 +258,71 @@
     sentence = own;
     if (!own) return;
     own.element.classList.add('now');
-    const box = own.element.getBoundingClientRect();
-    const top = innerWidth < 992 ? document.querySelector('.stage').getBoundingClientRect().bottom : 0;
-    if (isPlaying() && (box.bottom > innerHeight || box.top < Math.max(top, 0))) {
-      scrollTo({ top: scrollY + box.top - Math.max(top, 0) - 24, behavior: calm.matches ? 'auto' : 'smooth' });
+    const box = own.element.getBoundingClientRect(), stage = document.querySelector('.stage').getBoundingClientRect();
+    const top = stage.right > box.left ? Math.max(stage.bottom, 0) : 0;
+    if (isPlaying() && (box.bottom > innerHeight || box.top < top)) {
+      scrollTo({ top: scrollY + box.top - top - 24, behavior: calm.matches ? 'auto' : 'smooth' });
     }
-  }
-
-  // One syllable at a time can be reached by tab; arrows go on from there.
-  function rove(element) {
-    pieces.forEach(p => { p.element.tabIndex = p.element === element ? 0 : -1; });
   }
 
   const say = text => { find('status').textContent = text; };
+  const notice = text => { if (find('notice').textContent !== text) find('notice').textContent = text; };
+
+  // The sentences of a clip, and a button before each, made when the clip is first seen.
+  function read(script) {
+    const sentences = [];
+    for (const p of script.querySelectorAll('p')) {
+      const own = [...p.querySelectorAll('[data-from]')];
+      if (!own.length) continue;
+      const whole = { element: p, from: +own[0].dataset.from, to: +own[own.length - 1].dataset.to };
+      whole.pieces = own.map(e => ({ element: e, from: +e.dataset.from, to: +e.dataset.to, sentence: whole }));
+      sentences.push(whole);
+      if (p.querySelector('.hear')) continue;
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.className = 'hear';
+      button.title = 'Play this sentence';
+      button.setAttribute('aria-label', 'Play sentence ' + sentences.length);
+      button.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><path d="M8 5v14l11-7z"/></svg>';
+      button.lang = 'en';
+      p.prepend(button);
+    }
+    // Repeated with a breath around it, as far as there is one.
+    sentences.forEach((s, i) => {
+      s.begin = Math.max(s.from - 0.1, i ? sentences[i - 1].to : 0);
+      s.end = Math.min(s.to + 0.3, i + 1 < sentences.length ? sentences[i + 1].from : clip.duration);
+    });
+    return sentences.flatMap(s => s.pieces);
+  }
 
   async function open(number) {
     if (clip) { pause(); find('said-' + clips.indexOf(clip)).hidden = true; }
+    lit?.element.classList.remove('lit');
+    sentence?.element.classList.remove('now');
     clip = clips[number];
-    sound = find('sound-' + number);
+    notice('');
+    sound = clip.mute ? null : find('sound-' + number);
     const script = find('said-' + number);
     script.hidden = false;
-    pieces = [];
-    for (const p of script.querySelectorAll('p')) {
-      const own = [...p.querySelectorAll('span[role=button]')];
-      if (!own.length) continue;
-      const whole = { element: p, from: +own[0].dataset.from, to: +own[own.length - 1].dataset.to };
-      own.forEach(e => pieces.push({ element: e, from: +e.dataset.from, to: +e.dataset.to, sentence: whole }));
-    }
-    if (pieces.length) rove(pieces[0].element);
+    pieces = read(script);
     document.querySelectorAll('nav button').forEach((b, i) => b.setAttribute('aria-current', String(i === number)));
     canvas.setAttribute('aria-label', clip.about);
     find('seek').max = clip.duration;
     find('mouth').hidden = !clip.mouth;
     find('loop').hidden = !pieces.length;
+    document.querySelector('.of-script').hidden = !pieces.length;
     lit = sentence = null; shown = -1; ground = null;
-    document.querySelector('.picture').style.aspectRatio = clip.size.join('/');
+    document.querySelector('.picture').style.cssText = `--w:${clip.size[0]};--h:${clip.size[1]}`;
     if (!clip.layers) {
-      try { await unpack(clip); } catch (error) { say('This browser is too old to show the face: ' + error.message); throw error; }
+      try { await unpack(clip); } catch (error) {
+        notice('This browser is too old to show the face.');
+        throw error;
+      }
     }
     fit();
     go(0);
+    spoken();
+    if (sound?.error) mute(false);
   }
 
   function fit() {
@@ -289,7 +345,7 @@
     if (calm.matches) { zoom = to; redraw(); return; }
     const from = zoom, begun = performance.now();
     const move = time => {
-      const u = Math.min(1, (time - begun) / 260);
+      const u = Math.max(0, Math.min(1, (time - begun) / 260));
       zoom = from + (to - from) * u * u * (3 - 2 * u);
       redraw();
       if (u < 1) requestAnimationFrame(move);
@@ -300,80 +356,109 @@
   function loop() {
     const on = press(find('loop'));
     say(on ? 'The sentence is repeated' : 'Plays on');
-    if (on) enter((pieces.findLast(p => p.from <= now() + 0.0005) || pieces[0] || {}).sentence || null);
+    if (on) enter((at(now()) || pieces[0] || {}).sentence || null);
   }
 
   function speed(value) {
+    const time = now();
     find('speed').value = value;
     const shownRate = +rate().toFixed(2) + '×';
     find('rate').value = shownRate;
     find('speed').setAttribute('aria-valuetext', shownRate);
-    if (sound) sound.playbackRate = rate();
-    else if (silent.playing) { const time = now(); silent.time = time; silent.since = performance.now(); }
+    if (sound) sound.playbackRate = rate(); else { silent.time = time; silent.since = performance.now(); }
   }
 
   function reading(value) {
     find('reading').value = value;
     root.classList.toggle('show-pinyin', value === 'pinyin');
     root.classList.toggle('show-zhuyin', value === 'zhuyin');
+    try { localStorage.setItem('lianpu-reading', value); } catch { /* Nothing is kept. */ }
   }
 
-  // By sentence or by syllable, from where the clip is.
-  function step(by, small) {
-    if (!pieces.length) { go(now() + by * 2); return; }
-    const starts = small ? pieces.map(p => p.from) : [...new Set(pieces.map(p => p.sentence.from))];
+  // By sentence, from where the clip is.
+  function step(by) {
+    if (!pieces.length) { go(now() + by * 2); spoken(); return; }
+    const starts = [...new Set(pieces.map(p => p.sentence))].map(s => s.from);
     const time = now();
-    const at = starts.findLastIndex(s => s <= time + 0.01);
-    const target = starts[Math.max(0, Math.min(starts.length - 1, by < 0 && time - starts[at] > 0.5 && !small ? at : at + by))];
-    enter((pieces.findLast(p => p.from <= target + 0.0005) || pieces[0]).sentence);
+    const from = starts.findLastIndex(s => s <= time + 0.01);
+    const to = by < 0 && from >= 0 && time - starts[from] > 0.5 ? from : from + by;
+    const target = starts[Math.max(0, Math.min(starts.length - 1, to))];
+    if (until !== null) pause();
+    enter(at(target).sentence);
     go(target + 0.001);
+    spoken();
+  }
+
+  // By syllable; one that is stepped to while nothing plays is said.
+  function stepSmall(by) {
+    if (!pieces.length) { pause(); go(now() + by / clip.fps); return; }
+    const time = now(), from = pieces.findLastIndex(p => p.from <= time + 0.01);
+    const piece = pieces[Math.max(0, Math.min(pieces.length - 1, from + by))];
+    if (isPlaying() && until === null) { enter(piece.sentence); go(piece.from + 0.001); } else hear(piece.from, piece.to);
+  }
+
+  function hear(from, to) {
+    go(from + 0.001);
+    play(to);
   }
 
   find('play').onclick = find('cover').onclick = toggle;
-  find('seek').oninput = e => { until = null; go(+e.target.value); if (loops()) enter((pieces.findLast(p => p.from <= now()) || pieces[0] || {}).sentence || null); };
+  find('seek').oninput = e => {
+    if (until !== null) pause();
+    go(+e.target.value);
+    spoken();
+    if (loops()) enter((at(now()) || pieces[0] || {}).sentence || null);
+  };
   find('speed').oninput = e => speed(e.target.value);
-  find('speed').onchange = () => say('Speed ' + find('rate').value);
   find('loop').onclick = loop;
   find('mouth').onclick = closeUp;
   find('reading').onchange = e => reading(e.target.value);
   document.querySelectorAll('nav button').forEach((b, i) => { b.onclick = () => open(i); });
 
-  const hear = element => {
-    const piece = pieces.find(p => p.element === element);
-    if (!piece) return;
-    rove(element);
-    go(piece.from);
-    play(piece.to);
-  };
   document.querySelector('.script').addEventListener('click', e => {
-    const element = e.target.closest('span[role=button]');
-    if (element) hear(element);
+    const element = e.target.closest('[data-from]'), button = e.target.closest('.hear');
+    const piece = element ? pieces.find(p => p.element === element)
+      : button && pieces.find(p => p.sentence.element === button.parentElement);
+    if (!piece) return;
+    enter(piece.sentence);
+    if (element) hear(piece.from, piece.to);
+    else if (loops()) { go(piece.sentence.begin); play(); }
+    else hear(piece.sentence.from, piece.sentence.end);
   });
   document.querySelectorAll('audio').forEach(a => {
     a.addEventListener('play', () => { if (a === sound) started(); });
-    ['pause', 'ended'].forEach(name => a.addEventListener(name, () => { if (a === sound) stopped(); }));
+    a.addEventListener('pause', () => { if (a === sound && !a.ended) stopped(); });
+    a.addEventListener('ended', () => { if (a === sound) ended(); });
+    a.addEventListener('error', () => { if (a === sound) mute(isPlaying()); });
     a.addEventListener('seeked', () => { if (a === sound && a.paused) show(a.currentTime); });
+    // A page that is not seen has no frames: it repeats and stops by these.
+    a.addEventListener('timeupdate', () => { if (a === sound && document.hidden) goesOn(); });
   });
 
   addEventListener('keydown', e => {
     if (e.ctrlKey || e.metaKey || e.altKey) return;
-    const on = document.activeElement, tag = on?.tagName;
-    const piece = on?.getAttribute('role') === 'button' ? pieces.findIndex(p => p.element === on) : -1;
-    if (piece >= 0) {
-      const to = { ArrowRight: piece + 1, ArrowLeft: piece - 1, Home: 0, End: pieces.length - 1 }[e.key];
-      if (to !== undefined && pieces[to]) { rove(pieces[to].element); pieces[to].element.focus(); e.preventDefault(); return; }
-      if (e.key === 'Enter' || e.key === ' ') { hear(on); e.preventDefault(); return; }
+    const tag = document.activeElement?.tagName;
+    if (document.activeElement === find('seek')) {
+      const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 }[e.key];
+      if (by) { if (until !== null) pause(); go(now() + by); spoken(); e.preventDefault(); return; }
     }
     if (tag === 'SELECT' || (tag === 'INPUT' && /^(Arrow|Home|End|Page)/.test(e.key)) || (tag === 'BUTTON' && /^( |Enter)$/.test(e.key))) return;
     const act = {
-      ' ': toggle, k: toggle, ArrowLeft: () => step(-1, false), ArrowRight: () => step(1, false),
-      ',': () => step(-1, true), '.': () => step(1, true), l: () => { if (pieces.length) loop(); },
+      ' ': toggle, k: toggle, ArrowLeft: () => step(-1), ArrowRight: () => step(1),
+      ',': () => stepSmall(-1), '.': () => stepSmall(1), l: () => { if (pieces.length) loop(); },
       m: () => { if (clip.mouth) closeUp(); }, '[': () => speed(rate() - 0.05), ']': () => speed(rate() + 0.05),
-      r: () => { const s = find('reading'); reading(s.options[(s.selectedIndex + 1) % s.options.length].value); },
+      r: () => {
+        const list = find('reading');
+        if (!list.parentElement.hidden) reading(list.options[(list.selectedIndex + 1) % list.options.length].value);
+      },
     }[e.key.length === 1 ? e.key.toLowerCase() : e.key];
     if (act) { act(); e.preventDefault(); }
   });
 
+  try {
+    const kept = localStorage.getItem('lianpu-reading');
+    if (kept && !find('reading').parentElement.hidden) reading(kept);
+  } catch { /* Nothing was kept. */ }
   new ResizeObserver(() => { if (clip?.layers) fit(); }).observe(canvas);
   await open(0);
   root.dataset.ready = 'yes';

@@ -1,6 +1,6 @@
 //! The mouth shapes of a clip in time, as other programs of lip movement take them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::File;
 use crate::pose::MouthPreset;
@@ -31,12 +31,17 @@ pub(super) fn shapes(clip: &Clip, fps: f64, mouths: MouthPreset) -> Timing {
 }
 
 /// Rhubarb's three.
+pub(super) const RHUBARB: [Format; 3] = [Format::RhubarbTsv, Format::RhubarbXml, Format::RhubarbJson];
+
+/// The file of one of Rhubarb's forms.
+pub(super) fn rhubarb_path(base: &Path, format: Format) -> PathBuf {
+    super::with_ending(base, &format!("rhubarb.{}", format.extension()))
+}
+
+/// The shapes in Rhubarb's forms.
 pub(super) fn rhubarb(timing: &Timing, base: &Path) -> Vec<File> {
-    [Format::RhubarbTsv, Format::RhubarbXml, Format::RhubarbJson]
-        .map(|format| {
-            let path = super::with_ending(base, &format!("rhubarb.{}", format.extension()));
-            File { path, bytes: timing::write(timing, format).into_bytes() }
-        })
+    RHUBARB
+        .map(|format| File { path: rhubarb_path(base, format), bytes: timing::write(timing, format).into_bytes() })
         .into()
 }
 

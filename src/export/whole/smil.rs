@@ -7,12 +7,12 @@
 use std::fmt::Write;
 
 use super::sound::Encoded;
-use super::svg_marks::{Defs, write_marks};
+use super::svg_marks::{Defs, short_name, write_marks};
 use super::{escaped, svg_marks};
 use crate::export::parts::{Move, Part, Parts};
 
-/// How far picture and sound may part before the picture is set right, in seconds: half a frame at 25 a second.
-const APART: f64 = 0.02;
+/// How far picture and sound may part before the picture is set right, in seconds.
+const APART: f64 = 0.01;
 
 /// What an animated SVG says beside its picture.
 pub(super) struct Words<'a> {
@@ -24,7 +24,7 @@ pub(super) struct Words<'a> {
 
 /// The animated SVG of a clip.
 pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>) -> String {
-    let mut defs = Defs::default();
+    let mut defs = Defs::with_classes();
     let (mut poses, mut scene) = (String::new(), String::new());
     // A letter a part: its poses are named thousands of times.
     let mut letter = 0;
@@ -35,7 +35,7 @@ pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>
             if part.is_still() {
                 write_marks(&mut scene, part.marks(0), &mut defs);
             } else {
-                let prefix = prefix(letter);
+                let prefix = short_name(letter);
                 letter += 1;
                 write_poses(&mut poses, part, &prefix, &mut defs);
                 write_use(&mut scene, part, &prefix, parts);
@@ -45,7 +45,7 @@ pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>
         scene.push_str(&"</g>".repeat(moved));
     }
     let mut out = head(parts, words);
-    let _ = write!(out, "<defs>\n{poses}{}</defs>\n", defs.text);
+    let _ = write!(out, "<style>{}</style>\n<defs>\n{poses}{}</defs>\n", defs.style(), defs.text);
     out.push_str(&backdrop(parts));
     let _ = writeln!(out, "{}{scene}</g>", on_grid(parts));
     out.push_str(&sound_of(parts, sound));
@@ -55,7 +55,7 @@ pub(super) fn animated(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>
 
 /// The thesis's own form: what never changes, then a group a frame.
 pub(super) fn of_the_thesis(parts: &Parts, words: &Words<'_>, sound: Option<&Encoded>) -> String {
-    let mut defs = Defs::default();
+    let mut defs = Defs::with_classes();
     let (mut still, mut frames) = (String::new(), String::new());
     // What lies behind the first part that moves is there all the time; what lies before it is drawn in every frame.
     let all: Vec<(&[(u32, Move)], &Part)> =
@@ -88,7 +88,7 @@ pub(super) fn of_the_thesis(parts: &Parts, words: &Words<'_>, sound: Option<&Enc
         frames.push_str("</g>\n");
     }
     let mut out = head(parts, words);
-    let _ = write!(out, "<defs>\n{}\n</defs>\n{}", defs.text, backdrop(parts));
+    let _ = write!(out, "<style>{}</style>\n<defs>\n{}\n</defs>\n{}", defs.style(), defs.text, backdrop(parts));
     let _ = write!(
         out,
         "{}<g id=\"static\">\n{still}</g>\n<g id=\"dynamic\">\n{frames}</g>\n</g>\n{}</svg>\n",
@@ -130,12 +130,6 @@ pub(super) fn backdrop(parts: &Parts) -> String {
 pub(super) fn on_grid(parts: &Parts) -> String {
     let [x, y] = parts.grid.origin.map(|v| (v * 1e4).round() / 1e4);
     format!("<g transform=\"translate({x} {y})scale(.125)\">\n")
-}
-
-/// `a`, `b` … `z`, then `za`, `zb` …: none is the beginning of a number or of another part's name in a file.
-fn prefix(number: u32) -> String {
-    let letter = |n: u32| char::from(b'a' + (n % 26) as u8);
-    format!("{}{}", "z".repeat((number / 25) as usize), letter(number % 25))
 }
 
 fn write_poses(out: &mut String, part: &Part, prefix: &str, defs: &mut Defs) {
@@ -228,18 +222,25 @@ fn sound_of(parts: &Parts, sound: Option<&Encoded>) -> String {
          <script><![CDATA[\n{}]]></script>\n",
         height - bar,
         super::base64::data_uri(sound.mime, &sound.bytes),
-        TIE.replace("APART", &APART.to_string())
+        TIE.replace("APART", &APART.to_string()).replace("AHEAD", &lead(parts.fps).to_string())
     )
+}
+
+/// How far a picture is ahead of its sound, in seconds: half a frame, so that the frame that is seen is the nearest to
+/// what is heard, and neither behind it nor before it by more than that.
+pub(super) fn lead(fps: f64) -> f64 {
+    (0.5 / fps * 1e4).round() / 1e4
 }
 
 /// The picture stands until the sound plays, goes by itself while it does, and is set right when they part.
 const TIE: &str = r"(function () {
   var svg = document.documentElement, sound = svg.querySelector('audio');
-  function set() { svg.setCurrentTime(sound.currentTime); }
+  function wanted() { return sound.currentTime + (sound.paused ? 0 : AHEAD); }
+  function set() { svg.setCurrentTime(wanted()); }
   function stop() { svg.pauseAnimations(); set(); svg.classList.remove('playing'); }
   function tie() {
     if (sound.paused) return;
-    if (Math.abs(svg.getCurrentTime() - sound.currentTime) > APART) set();
+    if (Math.abs(svg.getCurrentTime() - wanted()) > APART) set();
     requestAnimationFrame(tie);
   }
   svg.pauseAnimations();

@@ -22,17 +22,17 @@ impl LineFigure {
         moving.extend(self.mouth.draw(self, &knots, &pose.mouth));
         for (i, line) in self.lines.iter().enumerate() {
             if !self.is_of_eye_or_mouth(i) {
-                moving.push(Item::ink(&line.name, vec![self.ribbon(i, &knots)], self.colours.ink));
+                moving.push(self.ink(&line.name, &[self.ribbon(i, &knots)], self.colours.ink));
             }
         }
         let (mut still, mut head): (Vec<Item>, Vec<Item>) = (Vec::new(), Vec::new());
         let turned = pose.head != Head::default();
         for part in &self.behind {
             let list = if turned && part.head { &mut head } else { &mut still };
-            list.extend(part.items());
+            list.extend(part.items(self));
         }
         for part in &self.before {
-            moving.extend(part.items());
+            moving.extend(part.items(self));
         }
         if turned {
             head.append(&mut moving);
@@ -63,13 +63,13 @@ impl LineFigure {
 }
 
 impl Backdrop {
-    fn items(&self) -> Vec<Item> {
+    fn items(&self, figure: &LineFigure) -> Vec<Item> {
         let mut items = Vec::new();
         if let Some(fill) = self.fill {
             items.push(Item::area(format!("{}-fill", self.name), closed(&self.strokes), fill));
         }
         if let Some(colour) = self.ink {
-            items.push(Item::ink(&self.name, self.strokes.clone(), colour));
+            items.push(figure.ink(&self.name, &self.strokes, colour));
         }
         items
     }

@@ -100,7 +100,7 @@ impl Eye {
             items.push(Item::clipped(format!("{side}-eye"), opening, self.iris_items(figure, side, look, pose)));
         }
         for line in [self.lower, self.upper] {
-            items.push(Item::ink(&figure.lines[line].name, vec![figure.ribbon(line, knots)], figure.colours.ink));
+            items.push(figure.ink(&figure.lines[line].name, &[figure.ribbon(line, knots)], figure.colours.ink));
         }
         items
     }

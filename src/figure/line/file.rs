@@ -5,6 +5,7 @@
 //! title = "A line face"
 //! view = [0, 40, 498, 560]        # x, y, width, height of what is shown
 //! pen = 2.0                       # pixels per unit of width
+//! widths = "bezier"               # how widths run between points: bezier, or paper (straight from point to point)
 //! pivot = [249, 560]              # what the head turns about
 //! close = [20, 50, 458, 520]      # the part with the face, for pictures too small for the rest
 //! lines = [ { name = "rbow", points = [0, 1, 2, 3] } ]
@@ -32,7 +33,7 @@ use serde::Deserialize;
 
 use super::eye::Eye;
 use super::mouth::Mouth;
-use super::{Backdrop, Colours, Fill, Line, LineFigure};
+use super::{Backdrop, Colours, Fill, Line, LineFigure, Widths};
 use crate::disk::{Fault, Result, from_toml, nearest, plain_name};
 use crate::drawing::Colour;
 use crate::geometry::{Knot, Point, Rect, Ribbon};
@@ -52,6 +53,8 @@ struct File {
     view: [f64; 4],
     #[serde(default = "two")]
     pen: f64,
+    #[serde(default)]
+    widths: Widths,
     pivot: Option<[f64; 2]>,
     close: Option<[f64; 4]>,
     #[serde(default)]
@@ -214,6 +217,7 @@ impl LineFigure {
             view,
             close,
             pen: file.pen,
+            widths: file.widths,
             colours: file.colours,
             behind: backdrops(file.behind, file.pen, file.colours.ink)?,
             before: backdrops(file.before, file.pen, file.colours.ink)?,

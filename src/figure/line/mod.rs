@@ -8,13 +8,15 @@ mod eye;
 mod file;
 mod lips;
 mod mouth;
+mod widths;
 
 use std::collections::BTreeMap;
 
 pub use file::FIGURE_FORMAT;
+pub use widths::Widths;
 
 use crate::disk::{Fault, Result, nearest};
-use crate::drawing::Colour;
+use crate::drawing::{Colour, Item};
 use crate::geometry::{Knot, Rect, Ribbon};
 use crate::pose::Ratios;
 
@@ -27,6 +29,8 @@ pub struct LineFigure {
     close: Rect,
     /// Pixels of the figure per unit of stroke width.
     pen: f64,
+    /// How widths run between control points.
+    widths: Widths,
     colours: Colours,
     lines: Vec<Line>,
     /// One list of knots an emotion, in canonical order, all of one length.
@@ -171,6 +175,18 @@ impl LineFigure {
             let knot = knots[p];
             Knot { w: knot.w.max(0.0) * self.pen, ..knot }
         }))
+    }
+
+    /// The figure with widths that run so between control points, instead of as its file says.
+    #[must_use]
+    pub fn with_widths(mut self, widths: Widths) -> Self {
+        self.widths = widths;
+        self
+    }
+
+    /// Strokes that form one line, in ink.
+    fn ink(&self, name: &str, strokes: &[Ribbon], colour: Colour) -> Item {
+        Item::ink(name, self.widths.of(strokes), colour)
     }
 
     fn is_of_eye_or_mouth(&self, line: usize) -> bool {

@@ -232,9 +232,8 @@ impl Mouth {
             }
         }
         for (name, lines, strokes) in [("upper-lip", &self.upper, upper), ("lower-lip", &self.lower, lower)] {
-            let ink = |(line, stroke): (&usize, Ribbon)| {
-                Item::ink(&figure.lines[*line].name, vec![stroke], figure.colours.ink)
-            };
+            let ink =
+                |(line, stroke): (&usize, Ribbon)| figure.ink(&figure.lines[*line].name, &[stroke], figure.colours.ink);
             items.push(Item::moved(name, Affine::IDENTITY, lines.iter().zip(strokes).map(ink).collect()));
         }
         items

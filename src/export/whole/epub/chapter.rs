@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::Chapter;
 use crate::export::said::Piece;
 use crate::export::whole::escaped;
+use crate::export::whole::smil::lead;
 
 /// A page up to and with the beginning of its body.
 pub(super) fn head(title: &str, language: &str, scripted: bool) -> String {
@@ -25,9 +26,10 @@ pub(super) fn text(chapter: &Chapter, n: usize, language: &str) -> String {
     let _ = write!(
         out,
         "<section epub:type=\"chapter\" id=\"chapter\">\n<h1>{}</h1>\n<figure>\n\
-         <object id=\"face\" data=\"clip-{n}.svg\" type=\"image/svg+xml\" width=\"{width}\" height=\"{height}\" aria-label=\"{about}\">\n\
+         <object id=\"face\" data=\"clip-{n}.svg\" type=\"image/svg+xml\" width=\"{width}\" height=\"{height}\" data-ahead=\"{}\" aria-label=\"{about}\">\n\
          <img src=\"clip-{n}.png\" alt=\"{about}\"/>\n</object>\n",
-        escaped(&chapter.title)
+        escaped(&chapter.title),
+        lead(chapter.fps)
     );
     if let Some(sound) = &chapter.sound {
         let _ =
@@ -50,9 +52,11 @@ pub(super) fn text(chapter: &Chapter, n: usize, language: &str) -> String {
             number += 1;
             let _ = write!(
                 out,
-                "{}<span id=\"s{number}\" data-from=\"{:.3}\">{}</span>{}",
+                "{}<span id=\"s{number}\" data-from=\"{:.3}\" data-to=\"{:.3}\"{}>{}</span>{}",
                 escaped(&piece.before),
                 piece.start,
+                piece.end,
+                if piece.english && language != "en" { " lang=\"en\" xml:lang=\"en\"" } else { "" },
                 ruby(piece, chapter.zhuyin),
                 escaped(&piece.after)
             );

@@ -31,8 +31,8 @@ const CONTAINER: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
 const STYLE: &str = "body{margin:5%;line-height:1.6}\nh1{font-size:1.4em;font-weight:600}\nfigure{margin:0 0 1.2em}\n\
 figure object,figure img{width:100%;height:auto;display:block}\naudio{width:100%;margin-top:.5em}\n\
 .said{font-size:1.4em;line-height:2.1}\nrt{font-size:.5em}\n\
-.-epub-media-overlay-active{background:#fbe3d6;color:#a63c22;border-radius:.2em}\n\
-@media (prefers-color-scheme:dark){.-epub-media-overlay-active{background:#4a2c22;color:#ffb59c}}\n";
+.-epub-media-overlay-active,.heard{background:#fbe3d6;color:#a63c22;border-radius:.2em}\n\
+@media (prefers-color-scheme:dark){.-epub-media-overlay-active,.heard{background:#4a2c22;color:#ffb59c}}\n";
 
 /// What the book needs of a clip.
 pub(super) struct Chapter {
@@ -52,6 +52,8 @@ pub(super) struct Chapter {
     pub phrases: Vec<Phrase>,
     /// Whether readings are in Zhuyin and not in Pinyin.
     pub zhuyin: bool,
+    /// Frames a second of the face.
+    pub fps: f64,
     /// Pixels of the picture.
     pub size: [u32; 2],
 }

@@ -3,7 +3,7 @@
 use super::keyed;
 use super::ring::Ring;
 use crate::drawing::Colour;
-use crate::export::parts::{ABSENT, Mark, Tracked};
+use crate::export::parts::{ABSENT, Mark, OneItem};
 use crate::geometry::{Affine, Point};
 use crate::render::{text_outline, text_width};
 
@@ -26,7 +26,7 @@ pub(super) struct Slots {
 
 impl Slot {
     /// All looks of an item.
-    pub fn of_item(item: &Tracked) -> Slots {
+    pub fn of_item(item: &OneItem) -> Slots {
         let looks: Vec<(Vec<Self>, Option<Self>)> = item.states.iter().map(|marks| look(marks)).collect();
         let keys = keys_of(item);
         let count = looks.iter().map(|l| l.0.len()).max().unwrap_or(0);
@@ -83,12 +83,12 @@ fn add(mark: &Mark, slots: &mut Vec<Slot>) {
     }
 }
 
-/// From which frame on an item is in which state.
-fn keys_of(item: &Tracked) -> Vec<(u32, u32)> {
+/// From which pose on an item is in which state.
+fn keys_of(item: &OneItem) -> Vec<(u32, u32)> {
     let mut keys: Vec<(u32, u32)> = Vec::new();
-    for (frame, state) in item.at.iter().enumerate() {
+    for (pose, state) in item.at.iter().enumerate() {
         if keys.last().is_none_or(|(_, last)| last != state) {
-            keys.push((frame as u32, *state));
+            keys.push((pose as u32, *state));
         }
     }
     keys
@@ -133,7 +133,8 @@ fn opacity<'a>(keys: &[(u32, u32)], own: &dyn Fn(u32) -> &'a Slot) -> String {
 }
 
 fn channels(colour: Colour) -> String {
-    let share = |v: u8| (f64::from(v) / 255.0 * 1e4).round() / 1e4;
+    // Some players cut what is behind the point of 255 times this.
+    let share = |v: u8| (f64::from(v) / 255.0 * 1e4).ceil() / 1e4;
     format!("{},{},{}", share(colour.r), share(colour.g), share(colour.b))
 }
 

@@ -1,0 +1,92 @@
+//! How far an export is, on the terminal or as lines of JSON, and what came of it.
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+
+use crate::cli::output_fault;
+use crate::disk::Result;
+use crate::export::{Exported, Progress, Step};
+
+/// Shows one lesson's export.
+pub(super) struct Show {
+    json: bool,
+    bar: ProgressBar,
+}
+
+impl Show {
+    pub(super) fn new(json: bool) -> Self {
+        if json || !std::io::stderr().is_terminal() {
+            return Self { json, bar: ProgressBar::hidden() };
+        }
+        let bar = ProgressBar::new(0);
+        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len} frames  {per_sec}  {eta} left") {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self { json, bar }
+    }
+
+    /// Shows a step; may be called from any thread.
+    pub(super) fn step(&self, step: Step<'_>) {
+        let (what, clip, Progress { done, of }) = match step {
+            Step::Frames(progress) => (None, None, progress),
+            Step::Whole(whole, progress) => (Some(whole.format.name()), whole.clip.as_deref(), progress),
+        };
+        if !self.json {
+            if done == 0 {
+                self.bar.reset();
+                self.bar.set_message(what.unwrap_or_default().to_owned());
+            }
+            self.bar.set_length(of.into());
+            self.bar.set_position(done.into());
+            return;
+        }
+        // A line a hundredth, so that a log stays readable.
+        if done == of || done.is_multiple_of((of / 100).max(1)) {
+            let mut line = json!({ "done": done, "of": of });
+            if let Some(what) = what {
+                line["making"] = what.into();
+                line["clip"] = clip.into();
+            }
+            eprintln!("{line}");
+        }
+    }
+
+    /// Takes the bar away.
+    pub(super) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Prints where everything is.
+    pub(super) fn result(&self, project: &Path, exported: &Exported, out: &mut dyn Write) -> Result<()> {
+        let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
+        for place in &exported.places {
+            if !self.json {
+                say(place.path.display().to_string())?;
+                continue;
+            }
+            let mut line = json!({ "project": project, "clip": place.clip, "path": place.path });
+            if place.frames > 0 {
+                line["frames"] = place.frames.into();
+            }
+            say(line.to_string())?;
+        }
+        let report = exported.report;
+        if self.json {
+            let totals = json!({ "project": project, "written": report.written, "kept": report.kept,
+                "removed": report.removed, "bytes": report.bytes });
+            return say(totals.to_string());
+        }
+        let removed = match report.removed {
+            0 => String::new(),
+            n => format!(", {n} left over from a longer export removed"),
+        };
+        let files = if report.written == 1 { "file" } else { "files" };
+        eprintln!("{} {files} written, {} already there{removed}", report.written, report.kept);
+        Ok(())
+    }
+}

@@ -1,0 +1,80 @@
+//! The export of one lesson, or of a share of it: frames and texts first, then what holds a clip or the lesson whole, all of
+//! it noted in the ledger.
+
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+use super::{Ledger, Progress, Report, Request, Whole, plan, run, wholes, write_wholes};
+use crate::disk::Result;
+use crate::project::Lesson;
+
+/// What an export is at.
+#[derive(Debug, Clone, Copy)]
+pub enum Step<'a> {
+    /// Frames of all clips.
+    Frames(Progress),
+    /// A file that holds a clip or the lesson whole, and how many of its frames are done.
+    Whole(&'a Whole, Progress),
+}
+
+/// Where something is now.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The clip; none where it is of the lesson.
+    pub clip: Option<String>,
+    /// A file, or a folder of frames.
+    pub path: PathBuf,
+    /// How many frames are in the folder; 0 of a file.
+    pub frames: usize,
+}
+
+/// What became of an export.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Exported {
+    /// What there is now, in the order it was made.
+    pub places: Vec<Place>,
+    /// What the author should know, each once.
+    pub notes: Vec<String>,
+    /// How much was done.
+    pub report: Report,
+}
+
+/// Exports what is asked of a lesson. `tell` is called from any thread; `stop` ends it early, between two frames, and then
+/// the ledger is not to be closed.
+///
+/// # Errors
+/// When it cannot be planned or a file cannot be written. Every file that is there is whole.
+pub fn export(
+    lesson: &Lesson,
+    request: &Request,
+    ledger: &mut Ledger,
+    tell: &(dyn Fn(Step<'_>) + Sync),
+    stop: &AtomicBool,
+) -> Result<Exported> {
+    let jobs = plan(lesson, request)?;
+    let whole = wholes(lesson, request)?;
+    let (report, files) = run(&jobs, request.jobs, &|p| tell(Step::Frames(p)), stop)?;
+    ledger.add(files);
+    let made = write_wholes(lesson, request, &whole, ledger, &|whole, p| tell(Step::Whole(whole, p)), stop)?;
+    let mut exported = Exported { report: report.with(&made), ..Exported::default() };
+    exported.report.stopped |= made.len() < whole.len();
+    for job in &jobs {
+        let clip = Some(job.clip.clone());
+        if !job.formats.is_empty() && !job.frames.is_empty() {
+            let (path, frames) = (job.folder.clone(), job.frames.len());
+            exported.places.push(Place { clip: clip.clone(), path, frames });
+        }
+        let texts = job.texts.iter().map(|(path, _)| path.clone());
+        exported.places.extend(texts.map(|path| Place { clip: clip.clone(), path, frames: 0 }));
+    }
+    for (whole, written) in whole.iter().zip(made) {
+        let paths = written.paths.into_iter();
+        exported.places.extend(paths.map(|path| Place { clip: whole.clip.clone(), path, frames: 0 }));
+        for note in written.notes {
+            if !exported.notes.contains(&note) {
+                exported.notes.push(note);
+            }
+        }
+    }
+    Ok(exported)
+}
