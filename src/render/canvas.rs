@@ -74,7 +74,6 @@ impl Canvas {
         self.area
     }
 
-<<<<<<< HEAD
     /// The same in memory that was used before.
     pub(super) fn renew(&mut self, area: Area) {
         self.area = area;
@@ -82,13 +81,6 @@ impl Canvas {
         self.pixels.resize(area.width() * area.height(), 0);
     }
 
-    /// All pixels, row by row.
-    pub(super) fn pixels(&self) -> &[Pixel] {
-        &self.pixels
-    }
-
-=======
->>>>>>> main
     /// The pixels `x0..x1` of row `y`, which lie on the sheet.
     pub(super) fn row(&self, y: i32, x0: i32, x1: i32) -> &[Pixel] {
         let start = (y - self.area.y0) as usize * self.area.width();

@@ -20,7 +20,7 @@ use super::print::{ByPrint, Print};
 use super::recent::Recent;
 use super::tiles::TILE;
 use super::tokens::{Counts, Table};
-use super::{Painter, encode_png};
+use super::{Painter, Picture, encode_png};
 use crate::disk::Result;
 use crate::drawing::Drawing;
 
@@ -107,15 +107,27 @@ impl ClipCoder {
     /// # Errors
     /// As for [`ClipCoder::new`].
     pub fn frames(&self) -> Result<FrameCoder<'_>> {
+        self.frames_within([PIECES, BANDS, SEEN])
+    }
+
+    /// The same, but what it has told it forgets at once: for measurements.
+    ///
+    /// # Errors
+    /// As for [`ClipCoder::new`].
+    pub fn forgetful_frames(&self) -> Result<FrameCoder<'_>> {
+        self.frames_within([0; 3])
+    }
+
+    fn frames_within(&self, [pieces, bands, seen]: [usize; 3]) -> Result<FrameCoder<'_>> {
         let painter = Painter::new(self.size.0, self.size.1)?;
         Ok(FrameCoder {
             clip: self,
             painter,
-            pieces: Recent::new(PIECES),
-            bands: Recent::new(BANDS),
+            pieces: Recent::new(pieces),
+            bands: Recent::new(bands),
             bits: Bits::default(),
             data: Vec::new(),
-            seen: Recent::new(SEEN),
+            seen: Recent::new(seen),
         })
     }
 }
@@ -137,17 +149,23 @@ impl FrameCoder<'_> {
     /// # Errors
     /// As for [`FrameCoder::encode`].
     pub fn encode_into(&mut self, drawing: &Drawing, key: &str, file: &mut Vec<u8>) -> Result<()> {
-        let Self { clip, painter, pieces, bands, bits, data, seen } = self;
+        let painted = self.paint(drawing);
+        self.tell(painted, key, file)
+    }
+
+    /// The first half of encoding: paints what has not been told before.
+    #[must_use]
+    pub fn paint(&mut self, drawing: &Drawing) -> Painted {
+        let Self { clip, painter, pieces, bands, seen, .. } = self;
         let plan = painter.plan(drawing);
         if clip.channels == 3 && !plan.is_opaque() {
             // None of the samples was like this one.
-            file.extend(encode_png(&painter.paint(drawing), key)?);
-            return Ok(());
+            return Painted(Found::Other(painter.paint(drawing)));
         }
         let grid = painter.grid();
         let columns = grid.columns;
         let prints: Vec<Print> = band_prints(&plan, columns).collect();
-        let mut found: Vec<Option<Arc<Band>>> =
+        let found: Vec<Option<Arc<Band>>> =
             prints.iter().map(|print| clip.still.get(print).cloned().or_else(|| bands.get(print))).collect();
         let mut parts: Vec<Part> = Vec::with_capacity(64);
         for row in (0..grid.rows).filter(|row| found[*row].is_none()) {
@@ -158,6 +176,23 @@ impl FrameCoder<'_> {
             missing[part.tiles.clone()].fill(true);
         }
         painter.refresh(&plan, |tile| missing[tile]);
+        Painted(Found::Bands { prints, found, parts })
+    }
+
+    /// The second half: appends the file to `file`, before anything else is painted.
+    ///
+    /// # Errors
+    /// As for [`FrameCoder::encode`].
+    pub fn tell(&mut self, painted: Painted, key: &str, file: &mut Vec<u8>) -> Result<()> {
+        let (prints, mut found, mut parts) = match painted.0 {
+            Found::Bands { prints, found, parts } => (prints, found, parts),
+            Found::Other(picture) => {
+                file.extend(encode_png(&picture, key)?);
+                return Ok(());
+            }
+        };
+        let Self { clip, painter, pieces, bands, bits, data, .. } = self;
+        let (grid, columns) = (painter.grid(), painter.grid().columns);
         let canvas = painter.canvas();
         for part in &mut parts {
             if let (None, Some(print)) = (&part.piece, part.keep) {
@@ -204,6 +239,16 @@ impl FrameCoder<'_> {
         chunk(file, *b"IEND", &[]);
         Ok(())
     }
+}
+
+/// A frame that is painted and not yet told.
+pub struct Painted(Found);
+
+enum Found {
+    /// What is on every row of tiles, the rows that were told before, and what the others are put together from.
+    Bands { prints: Vec<Print>, found: Vec<Option<Arc<Band>>>, parts: Vec<Part> },
+    /// A picture unlike all samples.
+    Other(Picture),
 }
 
 /// Tiles of a row that are told together.

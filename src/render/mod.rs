@@ -22,7 +22,7 @@ mod svg;
 mod tiles;
 mod tokens;
 
-pub use clip::{ClipCoder, FrameCoder};
+pub use clip::{ClipCoder, FrameCoder, Painted};
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::{Painter, Picture};
 pub use png::{decode_key, encode_png};
