@@ -40,7 +40,7 @@ pub struct ClipCoder {
     channels: usize,
     table: Table,
     still: ByPrint<Arc<Band>>,
-    /// From the signature to where a frame's key goes.
+    /// From the signature to the pixels.
     head: Vec<u8>,
 }
 
@@ -134,7 +134,7 @@ impl ClipCoder {
 
 impl FrameCoder<'_> {
     /// The PNG file of a drawing: RGB where nothing lets through what is behind it, else RGBA. `key` goes into a text
-    /// chunk before the pixels.
+    /// chunk after the pixels.
     ///
     /// # Errors
     /// When it cannot be encoded.
@@ -226,9 +226,6 @@ impl FrameCoder<'_> {
         let size = all().map(|b| b.chunk.len()).sum::<usize>();
         file.reserve(clip.head.len() + key.len() + size + 128);
         file.extend_from_slice(&clip.head);
-        if !key.is_empty() {
-            text_chunk(file, key);
-        }
         // The two bytes of zlib: a window of 32 kB, compressed fast.
         chunk(file, *b"IDAT", &[0x78, 0x01]);
         all().for_each(|band| file.extend_from_slice(&band.chunk));
@@ -236,6 +233,10 @@ impl FrameCoder<'_> {
         // An empty block ends it.
         let [a, b, c, d] = sum.value().to_be_bytes();
         chunk(file, *b"IDAT", &[3, 0, a, b, c, d]);
+        // What files have in common comes first.
+        if !key.is_empty() {
+            text_chunk(file, key);
+        }
         chunk(file, *b"IEND", &[]);
         Ok(())
     }
