@@ -149,7 +149,7 @@ fn stages(job: &Job, folder: &Path) {
     println!("  {} bytes a file", bytes / first.len());
 }
 
-/// Writes frames none of whose moving parts has been there before, by a coder that keeps nothing; or frames in which
+/// Writes frames none of whose moving parts has been there before, by a coder that keeps nothing of what moves; or frames in which
 /// the whole head moves. Of these, every fourth.
 fn harder(job: &Job, folder: &Path, head: bool) -> (f64, f64) {
     let at = folder.join("harder");
@@ -157,7 +157,8 @@ fn harder(job: &Job, folder: &Path, head: bool) -> (f64, f64) {
     let frames: Vec<u32> = (0..job.count).step_by(if head { 4 } else { 1 }).collect();
     let took = timed(|| {
         let clip = ClipCoder::new(job.size[0], job.size[1], &samples(job)).unwrap();
-        let mut coder = if head { clip.frames() } else { clip.forgetful_frames() }.unwrap();
+        let clip = if head { clip } else { clip.forgetful() };
+        let mut coder = clip.frames().unwrap();
         let mut file = Vec::new();
         for frame in &frames {
             let mut pose = job.timeline.pose(job.timeline.time_of(*frame));
