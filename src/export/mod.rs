@@ -6,6 +6,7 @@ pub mod apng;
 mod asked;
 mod captions;
 mod cels;
+mod digests;
 mod divide;
 mod draft;
 mod farm;

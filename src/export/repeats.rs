@@ -94,8 +94,11 @@ fn numbers(pose: &Pose) -> [u64; 25] {
 /// how many bytes were written.
 pub(super) fn repeat(from: &Path, path: &Path, dedupe: Dedupe) -> Result<u64> {
     // Where the disk has no links, or no more of this file, it is copied.
-    if dedupe == Dedupe::Link && in_place(path, |beside| fs::hard_link(from, beside)).is_ok() {
-        return Ok(0);
+    if dedupe == Dedupe::Link {
+        // A link is made whole, where nothing is in its place.
+        if fs::hard_link(from, path).is_ok() || in_place(path, |beside| fs::hard_link(from, beside)).is_ok() {
+            return Ok(0);
+        }
     }
     let mut bytes = 0;
     in_place(path, |beside| fs::copy(from, beside).map(|n| bytes = n))

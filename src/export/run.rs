@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use super::asked::within;
+use super::digests::Digests;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Entry, Format, Job};
 use crate::disk::{Fault, Result, replace, write_whole};
@@ -99,23 +100,28 @@ impl Tally {
     }
 
     /// Keeps what is there already where it is right, and says what is there then.
-    fn keep_or_write(
+    fn keep_or_write<B: AsRef<[u8]>>(
         &self,
         job: &Job,
         path: &Path,
         right: Option<Vec<u8>>,
-        bytes: impl FnOnce() -> Result<Vec<u8>>,
+        digests: &mut Digests,
+        bytes: impl FnOnce() -> Result<B>,
     ) -> Result<Entry> {
-        let name = within(&job.root, path);
+        let mut entry = |content: &[u8]| {
+            let (path, sha256) = (within(&job.root, path), digests.of(content));
+            Entry { path, bytes: content.len() as u64, sha256, key: None }
+        };
         if let Some(there) = right {
             self.kept.fetch_add(1, Ordering::Relaxed);
-            return Ok(Entry::of(name, &there));
+            return Ok(entry(&there));
         }
         let bytes = bytes()?;
-        replace(path, &bytes).map_err(elsewhere)?;
+        let bytes = bytes.as_ref();
+        replace(path, bytes).map_err(elsewhere)?;
         self.written.fetch_add(1, Ordering::Relaxed);
         self.bytes.fetch_add(bytes.len() as u64, Ordering::Relaxed);
-        Ok(Entry::of(name, &bytes))
+        Ok(entry(bytes))
     }
 }
 
@@ -161,7 +167,7 @@ fn write_frames(
         .first
         .par_chunks(stretch)
         .map(|stretch| {
-            let mut coder = None;
+            let (mut coder, mut file, mut digests) = (None, Vec::new(), Digests::default());
             let (mut vectors, mut rasters) = (Vec::new(), Vec::with_capacity(stretch.len()));
             for frame in stretch {
                 if stop.load(Ordering::Relaxed) {
@@ -172,13 +178,16 @@ fn write_frames(
                     let path = job.path_of(*frame, Format::Svg);
                     let text = to_svg(&drawing, job.size[0], job.size[1]).into_bytes();
                     let right = std::fs::read(&path).ok().filter(|old| *old == text);
-                    vectors.push(tally.keep_or_write(job, &path, right, || Ok(text))?);
+                    vectors.push(tally.keep_or_write(job, &path, right, &mut digests, || Ok(text))?);
                 }
                 if png {
                     let path = job.path_of(*frame, Format::Png);
                     let key = key_of(&drawing, job.size);
                     let right = with_key(&path, &key);
-                    let entry = tally.keep_or_write(job, &path, right, || clip.encode(&mut coder, &drawing, &key))?;
+                    let entry = tally.keep_or_write(job, &path, right, &mut digests, || {
+                        clip.encode(&mut coder, &drawing, &key, &mut file)?;
+                        Ok(&file)
+                    })?;
                     rasters.push(Made { key, entry });
                 }
                 tally.step(progress);
@@ -247,7 +256,14 @@ impl ClipOf<'_> {
         ClipCoder::new(width, height, &drawings)
     }
 
-    fn encode<'b>(&'b self, coder: &mut Option<FrameCoder<'b>>, drawing: &Drawing, key: &str) -> Result<Vec<u8>> {
+    /// Makes `file` the frame's.
+    fn encode<'b>(
+        &'b self,
+        coder: &mut Option<FrameCoder<'b>>,
+        drawing: &Drawing,
+        key: &str,
+        file: &mut Vec<u8>,
+    ) -> Result<()> {
         let coder = match coder {
             Some(coder) => coder,
             None => match self.coder.get_or_init(|| self.learn()) {
@@ -255,7 +271,8 @@ impl ClipOf<'_> {
                 Err(fault) => return Err(Fault::new(fault.what()).help(fault.next_step())),
             },
         };
-        coder.encode(drawing, key)
+        file.clear();
+        coder.encode_into(drawing, key, file)
     }
 }
 

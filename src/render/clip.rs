@@ -6,7 +6,7 @@
 //! by how many threads.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use miniz_oxide::deflate::core::{CompressorOxide, TDEFLFlush, compress_to_output, create_comp_flags_from_zip_params};
 
@@ -20,13 +20,13 @@ use super::print::{ByPrint, Print};
 use super::recent::Recent;
 use super::tiles::TILE;
 use super::tokens::{Counts, Table};
-use super::{Painter, encode_png};
+use super::{Painter, Picture, encode_png};
 use crate::disk::Result;
 use crate::drawing::Drawing;
 
-/// Bytes of pieces, and of whole bands, that a thread keeps.
-const PIECES: usize = 10 << 20;
-const BANDS: usize = 2 << 20;
+/// Bytes of pieces, and of whole bands, that are kept.
+const PIECES: usize = 16 << 20;
+const BANDS: usize = 4 << 20;
 
 /// Bytes for the names of tiles that have been there.
 const SEEN: usize = 1 << 20;
@@ -40,8 +40,17 @@ pub struct ClipCoder {
     channels: usize,
     table: Table,
     still: ByPrint<Arc<Band>>,
-    /// From the signature to where a frame's key goes.
+    /// From the signature to the pixels.
     head: Vec<u8>,
+    kept: Mutex<Kept>,
+}
+
+/// What all threads have told.
+struct Kept {
+    pieces: Recent<Arc<Piece>>,
+    bands: Recent<Arc<Band>>,
+    /// Tiles that have been told once and not kept.
+    seen: Recent<()>,
 }
 
 /// A row of tiles as an `IDAT` chunk.
@@ -54,12 +63,8 @@ struct Band {
 pub struct FrameCoder<'a> {
     clip: &'a ClipCoder,
     painter: Painter,
-    pieces: Recent<Arc<Piece>>,
-    bands: Recent<Arc<Band>>,
     bits: Bits,
     data: Vec<u8>,
-    /// Tiles that have been told once and not kept.
-    seen: Recent<()>,
 }
 
 impl ClipCoder {
@@ -99,6 +104,7 @@ impl ClipCoder {
             table: Table::new(&counts, channels),
             still,
             head: head((width, height), channels),
+            kept: Mutex::new(Kept::new(BANDS, SEEN)),
         })
     }
 
@@ -108,21 +114,31 @@ impl ClipCoder {
     /// As for [`ClipCoder::new`].
     pub fn frames(&self) -> Result<FrameCoder<'_>> {
         let painter = Painter::new(self.size.0, self.size.1)?;
-        Ok(FrameCoder {
-            clip: self,
-            painter,
-            pieces: Recent::new(PIECES),
-            bands: Recent::new(BANDS),
-            bits: Bits::default(),
-            data: Vec::new(),
-            seen: Recent::new(SEEN),
-        })
+        Ok(FrameCoder { clip: self, painter, bits: Bits::default(), data: Vec::new() })
+    }
+
+    /// The same, but all that moves is told anew in every frame, also what was there before: for measurements.
+    #[must_use]
+    pub fn forgetful(self) -> Self {
+        Self { kept: Mutex::new(Kept::new(0, 0)), ..self }
+    }
+
+    /// What has been told before. Whether something is there decides how fast a frame is told, not what its bytes are.
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        // A thread that stopped in the middle leaves nothing half done.
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Kept {
+    fn new(bands: usize, seen: usize) -> Self {
+        Self { pieces: Recent::new(PIECES), bands: Recent::new(bands), seen: Recent::new(seen) }
     }
 }
 
 impl FrameCoder<'_> {
     /// The PNG file of a drawing: RGB where nothing lets through what is behind it, else RGBA. `key` goes into a text
-    /// chunk before the pixels.
+    /// chunk after the pixels.
     ///
     /// # Errors
     /// When it cannot be encoded.
@@ -137,35 +153,61 @@ impl FrameCoder<'_> {
     /// # Errors
     /// As for [`FrameCoder::encode`].
     pub fn encode_into(&mut self, drawing: &Drawing, key: &str, file: &mut Vec<u8>) -> Result<()> {
-        let Self { clip, painter, pieces, bands, bits, data, seen } = self;
+        let painted = self.paint(drawing);
+        self.tell(painted, key, file)
+    }
+
+    /// The first half of encoding: paints what has not been told before.
+    #[must_use]
+    pub fn paint(&mut self, drawing: &Drawing) -> Painted {
+        let Self { clip, painter, .. } = self;
         let plan = painter.plan(drawing);
         if clip.channels == 3 && !plan.is_opaque() {
             // None of the samples was like this one.
-            file.extend(encode_png(&painter.paint(drawing), key)?);
-            return Ok(());
+            return Painted(Found::Other(painter.paint(drawing)));
         }
         let grid = painter.grid();
         let columns = grid.columns;
         let prints: Vec<Print> = band_prints(&plan, columns).collect();
-        let mut found: Vec<Option<Arc<Band>>> =
-            prints.iter().map(|print| clip.still.get(print).cloned().or_else(|| bands.get(print))).collect();
+        let mut kept = clip.kept();
+        let found: Vec<Option<Arc<Band>>> =
+            prints.iter().map(|print| clip.still.get(print).cloned().or_else(|| kept.bands.get(print))).collect();
         let mut parts: Vec<Part> = Vec::with_capacity(64);
         for row in (0..grid.rows).filter(|row| found[*row].is_none()) {
-            divide(&plan, row * columns..(row + 1) * columns, seen, pieces, &mut parts);
+            divide(&plan, row * columns..(row + 1) * columns, &mut kept, &mut parts);
         }
+        drop(kept);
         let mut missing = vec![false; plan.prints.len()];
         for part in parts.iter().filter(|part| part.piece.is_none()) {
             missing[part.tiles.clone()].fill(true);
         }
         painter.refresh(&plan, |tile| missing[tile]);
+        Painted(Found::Bands { prints, found, parts })
+    }
+
+    /// The second half: appends the file to `file`, before anything else is painted.
+    ///
+    /// # Errors
+    /// As for [`FrameCoder::encode`].
+    pub fn tell(&mut self, painted: Painted, key: &str, file: &mut Vec<u8>) -> Result<()> {
+        let (prints, mut found, mut parts) = match painted.0 {
+            Found::Bands { prints, found, parts } => (prints, found, parts),
+            Found::Other(picture) => {
+                file.extend(encode_png(&picture, key)?);
+                return Ok(());
+            }
+        };
+        let Self { clip, painter, bits, data } = self;
+        let (grid, columns) = (painter.grid(), painter.grid().columns);
         let canvas = painter.canvas();
         for part in &mut parts {
             if let (None, Some(print)) = (&part.piece, part.keep) {
                 // Parts that look alike are told once.
-                part.piece = pieces.get(&print).or_else(|| {
+                let there = clip.kept().pieces.get(&print);
+                part.piece = there.or_else(|| {
                     let piece = Piece::new(canvas, grid.run(part.tiles.clone()), clip.channels, &clip.table, bits);
                     let piece = Arc::new(piece);
-                    pieces.put(print, Arc::clone(&piece), piece.size());
+                    clip.kept().pieces.put(print, Arc::clone(&piece), piece.size());
                     Some(piece)
                 });
             }
@@ -184,16 +226,13 @@ impl FrameCoder<'_> {
             data.clear();
             bits.drain_into(data);
             let band = Arc::new(Band::new(data, sum));
-            bands.put(prints[row], Arc::clone(&band), band.chunk.len() + size_of::<Band>());
+            clip.kept().bands.put(prints[row], Arc::clone(&band), band.chunk.len() + size_of::<Band>());
             found[row] = Some(band);
         }
         let all = || found.iter().flatten();
         let size = all().map(|b| b.chunk.len()).sum::<usize>();
         file.reserve(clip.head.len() + key.len() + size + 128);
         file.extend_from_slice(&clip.head);
-        if !key.is_empty() {
-            text_chunk(file, key);
-        }
         // The two bytes of zlib: a window of 32 kB, compressed fast.
         chunk(file, *b"IDAT", &[0x78, 0x01]);
         all().for_each(|band| file.extend_from_slice(&band.chunk));
@@ -201,9 +240,23 @@ impl FrameCoder<'_> {
         // An empty block ends it.
         let [a, b, c, d] = sum.value().to_be_bytes();
         chunk(file, *b"IDAT", &[3, 0, a, b, c, d]);
+        // What files have in common comes first.
+        if !key.is_empty() {
+            text_chunk(file, key);
+        }
         chunk(file, *b"IEND", &[]);
         Ok(())
     }
+}
+
+/// A frame that is painted and not yet told.
+pub struct Painted(Found);
+
+enum Found {
+    /// What is on every row of tiles, the rows that were told before, and what the others are put together from.
+    Bands { prints: Vec<Print>, found: Vec<Option<Arc<Band>>>, parts: Vec<Part> },
+    /// A picture unlike all samples.
+    Other(Picture),
 }
 
 /// Tiles of a row that are told together.
@@ -216,13 +269,7 @@ struct Part {
 
 /// Divides a row of tiles: what no moving thing touches is one part, up to the next moving thing; a tile that has been
 /// there before is one; and tiles that are new are one that is told and forgotten, for most never come again.
-fn divide(
-    plan: &Plan,
-    row: Range<usize>,
-    seen: &mut Recent<()>,
-    pieces: &mut Recent<Arc<Piece>>,
-    parts: &mut Vec<Part>,
-) {
+fn divide(plan: &Plan, row: Range<usize>, kept: &mut Kept, parts: &mut Vec<Part>) {
     let (mut tile, end) = (row.start, row.end);
     let is_still = |tile: usize| plan.prints[tile] == plan.still_prints[tile];
     let mut open = false;
@@ -234,14 +281,14 @@ fn divide(
                 print.print(plan.prints[tile]);
                 tile += 1;
             }
-            parts.push(Part { tiles: start..tile, piece: pieces.get(&print), keep: Some(print) });
+            parts.push(Part { tiles: start..tile, piece: kept.pieces.get(&print), keep: Some(print) });
             open = false;
             continue;
         }
         tile += 1;
         let print = plan.prints[start];
-        let piece = pieces.get(&print);
-        if piece.is_some() || seen.again(print) {
+        let piece = kept.pieces.get(&print);
+        if piece.is_some() || kept.seen.again(print) {
             parts.push(Part { tiles: start..tile, piece, keep: Some(print) });
             open = false;
             continue;

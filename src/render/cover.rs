@@ -176,6 +176,9 @@ impl Cover {
     }
 }
 
+/// Cover is told in so many steps: more can hardly be seen, and fewer different pixels make smaller files.
+const LEVELS: u32 = 15;
+
 /// The nearest whole number, below 2^31 either way: the sum's last bits are it.
 #[inline]
 fn whole(v: f64) -> i32 {
@@ -185,5 +188,5 @@ fn whole(v: f64) -> i32 {
 /// A sum as 0 to 255. Where an outline lies over itself it covers once.
 #[inline]
 fn share(sum: i32) -> u32 {
-    (sum.unsigned_abs().min(FULL as u32) * 255 + FULL as u32 / 2) / FULL as u32
+    (sum.unsigned_abs().min(FULL as u32) * LEVELS + FULL as u32 / 2) / FULL as u32 * (255 / LEVELS)
 }

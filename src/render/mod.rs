@@ -22,7 +22,7 @@ mod svg;
 mod tiles;
 mod tokens;
 
-pub use clip::{ClipCoder, FrameCoder};
+pub use clip::{ClipCoder, FrameCoder, Painted};
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::{Painter, Picture};
 pub use png::{decode_key, encode_png};
@@ -33,7 +33,7 @@ pub use svg::to_svg;
 pub const MAX_SIDE: u32 = 16_384;
 
 /// Raised whenever the same drawing comes to give other pixels, so that frames of before are written anew.
-pub const REVISION: u32 = 3;
+pub const REVISION: u32 = 4;
 
 /// How far an outline may be from the true one, in units of the drawing: a tenth of a pixel at twice its size.
 const TOLERANCE: f64 = 0.05;

@@ -28,6 +28,9 @@ impl<T: Clone> Recent<T> {
     pub(super) fn put(&mut self, print: Print, thing: T, bytes: usize) {
         // What the table itself takes of each.
         let bytes = bytes + 48;
+        if bytes > self.room / 2 {
+            return;
+        }
         if self.bytes + bytes > self.room / 2 {
             self.old = std::mem::take(&mut self.new);
             self.bytes = 0;
