@@ -11,8 +11,8 @@ use std::sync::atomic::AtomicBool;
 use self::course::Course;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::figure::Widths;
 use crate::export::{Dedupe, Format, FrameSet, Request, Shard, shard_of_array};
+use crate::figure::Widths;
 
 /// Write lessons as frames, subtitles, pages, books and what other programs read. Run again, it only writes what is missing or has changed.
 #[derive(Debug, clap::Args)]

@@ -318,7 +318,8 @@ impl<'a> Workshop<'a> {
             let parts = self.parts(*number)?;
             let (title, description) = (self.title(clip), self.description(clip));
             let words = smil::Words { title: &title, description: &description };
-            let mut first = self.request.figure_of(lesson, &clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
+            let mut first =
+                self.request.figure_of(lesson, &clip.entry)?.draw(&lesson.timeline(*number, None).pose(0.0));
             first.background = self.request.background.unwrap_or(first.background);
             chapters.push(epub::Chapter {
                 svg: smil::animated(&parts, &words, None),
