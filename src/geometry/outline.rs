@@ -220,6 +220,32 @@ mod tests {
         assert!(outline(&[Ribbon([k(0.0), k(1.0), k(2.0), k(3.0)])], 0.01).elements().is_empty());
     }
 
+    #[test]
+    fn a_chain_is_one_contour_and_a_ring_two() {
+        let contours = |path: &BezPath| path.elements().iter().filter(|e| matches!(e, PathEl::MoveTo(_))).count();
+        let k = |x, y| Knot::new(x, y, 4.0);
+        let half = |up: f64| {
+            Ribbon([k(-40.0 * up, 0.0), k(-40.0 * up, 53.0 * up), k(40.0 * up, 53.0 * up), k(40.0 * up, 0.0)])
+        };
+        let wave = [half(1.0), Ribbon([k(40.0, 0.0), k(40.0, -53.0), k(120.0, -53.0), k(120.0, 0.0)])];
+        assert_eq!(contours(&outline(&wave, 0.01)), 1);
+        let ring = outline(&[half(1.0), half(-1.0)], 0.01);
+        assert_eq!(contours(&ring), 2);
+        assert!(!covered(&ring, Point::ZERO) && covered(&ring, Point::new(40.0, 0.0)));
+        // Where a line turns sharply it has a round joint, and no gap on either side.
+        let corner = [
+            Ribbon([k(0.0, 0.0), k(10.0, 0.0), k(20.0, 0.0), k(30.0, 0.0)]),
+            Ribbon([k(30.0, 0.0), k(30.0, 10.0), k(30.0, 20.0), k(30.0, 30.0)]),
+        ];
+        let path = outline(&corner, 0.01);
+        assert_eq!(contours(&path), 1);
+        for (x, y, inked) in
+            [(31.3, -1.3, true), (31.6, -1.6, false), (28.1, 1.9, true), (27.9, 2.1, false), (30.0, 0.0, true)]
+        {
+            assert_eq!(covered(&path, Point::new(x, y)), inked, "{x} {y}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(128))]
 
