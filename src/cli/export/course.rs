@@ -19,6 +19,9 @@ pub(super) struct Course<'a> {
     pub(super) json: bool,
 }
 
+/// A project and what of its clips is to be done; everything where left out.
+type Work<'p> = (&'p Path, Option<Vec<Share>>);
+
 impl Course<'_> {
     /// Exports lessons that share a manifest. Returns how many failed, each with its reason told.
     pub(super) fn export(&self, projects: &[PathBuf], out: &mut dyn Write) -> Result<u32> {
@@ -59,12 +62,7 @@ impl Course<'_> {
 
     /// What of each lesson is to be done here. In a divided export all lessons are looked at first, so that every part
     /// knows of the others; lessons are not kept in memory.
-    fn shares<'p>(
-        &self,
-        projects: &'p [PathBuf],
-        ledger: &mut Ledger,
-        failed: &mut u32,
-    ) -> Result<Vec<(&'p Path, Option<Vec<Share>>)>> {
+    fn shares<'p>(&self, projects: &'p [PathBuf], ledger: &mut Ledger, failed: &mut u32) -> Result<Vec<Work<'p>>> {
         if self.shard == Shard::WHOLE {
             return Ok(projects.iter().map(|p| (p.as_path(), None)).collect());
         }
