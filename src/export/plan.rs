@@ -93,8 +93,9 @@ pub struct Job {
     pub folder: PathBuf,
     /// The frames to write.
     pub frames: Vec<u32>,
-    /// Whether these are all frames of the clip, so that later ones are left over from before.
-    pub whole: bool,
+    /// Whether frames beyond the clip's end, which an earlier and longer export left, are removed: where all are asked for,
+    /// by the part that has the first.
+    pub clears: bool,
     /// How many frames the clip has.
     pub count: u32,
     /// Pixels.
@@ -238,9 +239,8 @@ fn job(
         Some(share) => asked.get(share.frames.start as usize..share.frames.end as usize).unwrap_or_default().to_vec(),
         None => asked.clone(),
     };
-    let whole = request.frames.is_all() && frames.len() == asked.len();
-    let with_texts = share.is_none_or(|s| s.whole_files);
-    let texts = texts_of(request, &clip.entry.name, out).filter(|_| with_texts).map(|(text, path)| {
+    let whole_files = share.is_none_or(|s| s.whole_files);
+    let texts = texts_of(request, &clip.entry.name, out).filter(|_| whole_files).map(|(text, path)| {
         // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
         let text = match text {
             Text::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
@@ -261,7 +261,7 @@ fn job(
         root: root_folder(lesson, request),
         folder: out.join(&clip.entry.name),
         frames,
-        whole,
+        clears: request.frames.is_all() && whole_files,
         count,
         size: output.size,
         background: request.background,

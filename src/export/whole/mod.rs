@@ -31,6 +31,9 @@ use crate::script::System;
 use crate::timing::MOHO_FPS;
 use sound::Encoded;
 
+/// What a file is called that all clips are in.
+pub(super) const TOGETHER: &str = "lesson";
+
 /// Files that hold a clip or a lesson in one form, to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Whole {
@@ -105,7 +108,7 @@ pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
         all.extend(together.map(|format| Whole {
             format: *format,
             clip: None,
-            base: out.join("lesson"),
+            base: out.join(TOGETHER),
             clips: clips.clone(),
         }));
     }
@@ -176,6 +179,7 @@ pub fn write_wholes(
             ledger.add([Entry::of(within(&root, &file.path), &file.bytes)]);
             written.paths.push(file.path);
         }
+        tell(whole, Progress { done: 1, of: 1 });
         done.push(written);
     }
     Ok(done)
