@@ -191,7 +191,7 @@ fn check_asked(folder: &Path, first: &Manifest, files: &[Entry], count: u32) -> 
                 if is_whole { share.whole_files } else { share.frames.contains(&place) }
             };
             let owner = (1..=count).filter_map(|i| Shard::new(i, count)).find(owns).filter(|_| count > 1);
-            let fault = Fault::new("it was asked for, but is not in the list of what was written");
+            let fault = Fault::new("it was asked for, but no part wrote it");
             return Err(fault.at(folder.join(path)).help(owner.map_or_else(|| "run the export again".into(), again)));
         }
     }

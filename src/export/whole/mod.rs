@@ -3,6 +3,7 @@
 
 mod base64;
 mod epub;
+mod fewer;
 mod flac;
 mod html;
 mod layers;
