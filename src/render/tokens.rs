@@ -152,7 +152,9 @@ impl Table {
         let zeros: Vec<(u32, u8)> = runs(distance_codes[0]);
         let gap = |count: usize| match count {
             0 => (0, 0),
-            1..4 => (0..count as u8).fold((0, 0), |(bits, n), _| (bits | u64::from(bytes[0].bits) << n, n + bytes[0].count)),
+            1..4 => {
+                (0..count as u8).fold((0, 0), |(bits, n), _| (bits | u64::from(bytes[0].bits) << n, n + bytes[0].count))
+            }
             _ => {
                 let (bits, n) = zeros[count - 1];
                 (u64::from(bytes[0].bits) | u64::from(bits) << bytes[0].count, bytes[0].count + n)
