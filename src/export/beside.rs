@@ -12,7 +12,7 @@ impl Manifest {
         let same = |e: &Entry| std::fs::metadata(folder.join(&e.path)).is_ok_and(|m| m.len() == e.bytes);
         let kept: Vec<Entry> =
             earlier.files.into_iter().filter(|e| self.entry(&e.path).is_none()).filter(|e| same(e)).collect();
-        let rows: Vec<Asked> = earlier.clips.into_iter().flat_map(|row| self.left_of(row, &kept)).collect();
+        let rows: Vec<Asked> = earlier.clips.iter().flat_map(|row| self.left_of(row, &kept)).collect();
         self.clips.extend(rows);
         self.files.extend(kept);
         self.files.sort_by(|a, b| a.path.cmp(&b.path));
@@ -21,7 +21,7 @@ impl Manifest {
 
     /// What is left of an earlier request, when of its files those are `kept` that this export has not: a row for all forms
     /// that have the same frames.
-    fn left_of(&self, row: Asked, kept: &[Entry]) -> Vec<Asked> {
+    fn left_of(&self, row: &Asked, kept: &[Entry]) -> Vec<Asked> {
         let is_kept = |path: &str| kept.binary_search_by(|e| e.path.as_str().cmp(path)).is_ok();
         let alike = |a: &&Asked| (&a.project, &a.clip, &a.settings) == (&row.project, &row.clip, &row.settings);
         let now = self.clips.iter().find(alike);

@@ -155,7 +155,7 @@ pub(super) fn frames_asked(request: &Request, name: &str, count: u32) -> Result<
 
 /// A file that carries a clip's times as text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Text {
+pub(super) enum Times {
     TextGrid,
     Vtt,
     Srt,
@@ -168,12 +168,12 @@ pub(super) fn texts_of<'a>(
     request: &'a Request,
     clip: &'a str,
     out: &'a Path,
-) -> impl Iterator<Item = (Text, PathBuf)> + 'a {
+) -> impl Iterator<Item = (Times, PathBuf)> + 'a {
     let texts = |format: &Format| match format {
-        Format::TextGrid => &[(Text::TextGrid, "TextGrid")][..],
-        Format::Vtt => &[(Text::Vtt, "vtt")],
-        Format::Srt => &[(Text::Srt, "srt"), (Text::KaraokeSrt, "karaoke.srt")],
-        Format::Poses => &[(Text::Poses, "poses.csv")],
+        Format::TextGrid => &[(Times::TextGrid, "TextGrid")][..],
+        Format::Vtt => &[(Times::Vtt, "vtt")],
+        Format::Srt => &[(Times::Srt, "srt"), (Times::KaraokeSrt, "karaoke.srt")],
+        Format::Poses => &[(Times::Poses, "poses.csv")],
         _ => &[],
     };
     let all = request.formats.iter().flat_map(texts);
@@ -243,14 +243,14 @@ fn job(
     let texts = texts_of(request, &clip.entry.name, out).filter(|_| whole_files).map(|(text, path)| {
         // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
         let text = match text {
-            Text::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
-            Text::Vtt => captions::vtt(&said::phrases(clip)),
-            Text::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
-            Text::Srt => {
+            Times::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
+            Times::Vtt => captions::vtt(&said::phrases(clip)),
+            Times::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
+            Times::Srt => {
                 let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
                 crate::timing::write(&phrases, crate::timing::Format::Srt)
             }
-            Text::Poses => poses::to_csv(&timeline, &asked),
+            Times::Poses => poses::to_csv(&timeline, &asked),
         };
         (path, text)
     });

@@ -6,8 +6,10 @@ use crate::geometry::{Affine, BezPath, PathEl, Point, Vec2};
 /// Edges are told in so many parts of a pixel, as a power of 2.
 pub(super) const BITS: u32 = 8;
 
-/// Curves are cut so finely that no piece is further from them, in pixels.
+/// Curves are cut so finely that no piece is further from them, in pixels …
 const FLAT: f64 = 0.06;
+/// … and those of drawn lines, which are thin.
+const FLAT_OF_LINES: f64 = 0.025;
 
 /// No edge reaches further out, in pixels: a picture has at most 16,384.
 pub(super) const FAR: f64 = 1e6;
@@ -29,6 +31,15 @@ pub(super) struct Edges(pub(super) Vec<Edge>);
 impl Edges {
     /// The outline `path`, moved to the picture by `place`.
     pub(super) fn of(path: &BezPath, place: Affine) -> Self {
+        Self::flattened(path, place, FLAT)
+    }
+
+    /// The same of drawn lines.
+    pub(super) fn of_lines(path: &BezPath, place: Affine) -> Self {
+        Self::flattened(path, place, FLAT_OF_LINES)
+    }
+
+    fn flattened(path: &BezPath, place: Affine, flat: f64) -> Self {
         let mut edges = Self(Vec::with_capacity(4 * path.elements().len()));
         let (mut start, mut last) = (Point::ZERO, Point::ZERO);
         let (mut first, mut at) = ((0, 0), (0, 0));
@@ -51,12 +62,12 @@ impl Edges {
                 PathEl::QuadTo(a, p) => {
                     let (a, p) = (place * a, place * p);
                     // The same curve as a cubic.
-                    cubic(last, last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0), p, &mut |q| to(&mut at, q));
+                    cubic(last, last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0), p, flat, &mut |q| to(&mut at, q));
                     last = p;
                 }
                 PathEl::CurveTo(a, b, p) => {
                     let (a, b, p) = (place * a, place * b, place * p);
-                    cubic(last, a, b, p, &mut |q| to(&mut at, q));
+                    cubic(last, a, b, p, flat, &mut |q| to(&mut at, q));
                     last = p;
                 }
                 PathEl::ClosePath => {
@@ -101,11 +112,11 @@ fn whole(p: Point) -> (i32, i32) {
 }
 
 /// Cuts a cubic into even steps of its parameter, as many as its second differences ask for (Wang's bound).
-fn cubic(p: Point, a: Point, b: Point, q: Point, to: &mut impl FnMut(Point)) {
+fn cubic(p: Point, a: Point, b: Point, q: Point, flat: f64, to: &mut impl FnMut(Point)) {
     let bend = |a: Point, b: Point, c: Point| (a.to_vec2() - 2.0 * b.to_vec2() + c.to_vec2()).hypot2();
     let most = bend(p, a, b).max(bend(a, b, q)).sqrt();
     // Not a number where a coordinate is none: one step.
-    let steps = ((0.75 * most / FLAT).sqrt() as u32 + 1).min(500);
+    let steps = ((0.75 * most / flat).sqrt() as u32 + 1).min(500);
     let (c3, c2, c1): (Vec2, Vec2, Vec2) =
         (q - p + 3.0 * (a - b), 3.0 * (p.to_vec2() - 2.0 * a.to_vec2() + b.to_vec2()), 3.0 * (a - p));
     let step = 1.0 / f64::from(steps);
