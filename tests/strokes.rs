@@ -212,4 +212,5 @@ fn pixels_show_the_union_of_the_discs() {
     }
     thin.tell("lines of a face, painted");
     assert!(errors.mean() <= MEAN && errors.worst().0 <= WORST);
+    assert!(thin.mean() <= MEAN && thin.worst().0 <= WORST);
 }

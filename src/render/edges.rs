@@ -26,21 +26,30 @@ pub(super) struct Edge {
 
 /// The edges of a filled outline, every contour closed. Level ones add no area, but are a border that tiles must know.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Edges(pub(super) Vec<Edge>);
+pub(super) struct Edges {
+    pub(super) all: Vec<Edge>,
+    /// In how many steps pixels they cross are covered: a divisor of 255, or 0 without edges.
+    pub(super) steps: u32,
+}
+
+/// Steps of cover of areas: more can hardly be seen, and fewer different pixels make smaller files …
+const STEPS: u32 = 15;
+/// … and of drawn lines, which may have nothing but such pixels.
+const STEPS_OF_LINES: u32 = 255;
 
 impl Edges {
     /// The outline `path`, moved to the picture by `place`.
     pub(super) fn of(path: &BezPath, place: Affine) -> Self {
-        Self::flattened(path, place, FLAT)
+        Self::flattened(path, place, FLAT, STEPS)
     }
 
     /// The same of drawn lines.
     pub(super) fn of_lines(path: &BezPath, place: Affine) -> Self {
-        Self::flattened(path, place, FLAT_OF_LINES)
+        Self::flattened(path, place, FLAT_OF_LINES, STEPS_OF_LINES)
     }
 
-    fn flattened(path: &BezPath, place: Affine, flat: f64) -> Self {
-        let mut edges = Self(Vec::with_capacity(4 * path.elements().len()));
+    fn flattened(path: &BezPath, place: Affine, flat: f64, steps: u32) -> Self {
+        let mut edges = Self { all: Vec::with_capacity(4 * path.elements().len()), steps };
         let (mut start, mut last) = (Point::ZERO, Point::ZERO);
         let (mut first, mut at) = ((0, 0), (0, 0));
         let mut to = |at: &mut (i32, i32), p: Point| {
@@ -83,13 +92,13 @@ impl Edges {
     /// The pixels that the outline reaches.
     pub(super) fn bounds(&self) -> Area {
         let mut all = Area { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };
-        for e in &self.0 {
+        for e in &self.all {
             all.x0 = all.x0.min(e.x0.min(e.x1));
             all.x1 = all.x1.max(e.x0.max(e.x1));
             all.y0 = all.y0.min(e.y0);
             all.y1 = all.y1.max(e.y1);
         }
-        if self.0.is_empty() {
+        if self.all.is_empty() {
             return Area::NONE;
         }
         Area { x0: all.x0 >> BITS, y0: all.y0 >> BITS, x1: (all.x1 >> BITS) + 1, y1: (all.y1 >> BITS) + 1 }
@@ -100,7 +109,7 @@ impl Edges {
             return;
         }
         let (a, b, down) = if a.1 <= b.1 { (a, b, 1) } else { (b, a, -1) };
-        self.0.push(Edge { x0: a.0, y0: a.1, x1: b.0, y1: b.1, down });
+        self.all.push(Edge { x0: a.0, y0: a.1, x1: b.0, y1: b.1, down });
     }
 }
 
