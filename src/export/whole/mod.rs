@@ -282,6 +282,7 @@ impl<'a> Workshop<'a> {
             let parts = self.parts(*number)?;
             page.add(&html::Shown {
                 name: &clip.entry.name,
+                title: &lesson.manifest.title,
                 description: self.description(clip),
                 duration: clip.duration(),
                 parts: &parts,
