@@ -403,3 +403,38 @@ fn a_video_that_cannot_be_written_says_what_ffmpeg_says() {
     assert!(fault.what().starts_with("`ffmpeg` stopped: ") && !fault.what().contains(" @ "), "{fault}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
+
+#[test]
+fn a_moving_picture_is_on_the_disk_before_it_takes_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let calls = folder.path().join("calls.txt");
+    let watcher = || {
+        let mut program = Command::new("strace");
+        program.arg("-o").arg(&calls).args(["-f", "-y", "-e", "trace=fsync,rename,renameat,renameat2"]);
+        program
+    };
+    if !watcher().arg("true").output().is_ok_and(|o| o.status.success()) {
+        println!("not run: strace is not here, or may not watch");
+        return;
+    }
+    let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao");
+    let out = folder.path().join("out");
+    let forms = if has_ffmpeg() { "gif,apng,mp4,webm,png" } else { "gif,apng,png" };
+    let mut program = watcher();
+    program.arg(env!("CARGO_BIN_EXE_lianpu")).arg("export").arg(project).arg("--out").arg(&out);
+    program.args(["--to", forms, "--frames", "0-2", "--size", "64x36"]);
+    assert!(program.output().unwrap().status.success());
+    let calls = fs::read_to_string(&calls).unwrap();
+    let calls: Vec<&str> = calls.lines().filter(|l| l.contains("sync(") || l.contains("rename")).collect();
+    for form in forms.split(',').filter(|f| *f != "png") {
+        let place = format!("/nihao.{form}\"");
+        let at = calls.iter().position(|l| l.contains("rename") && l.contains(&place)).unwrap();
+        let draft = calls[at].split('"').nth(1).unwrap();
+        let draft = draft.rsplit('/').next().unwrap();
+        let synced = |calls: &[&str], what: &str| calls.iter().any(|l| l.contains("fsync(") && l.contains(what));
+        assert!(synced(&calls[..at], &format!("/{draft}>")), "{form}: {calls:#?}");
+        assert!(synced(&calls[at..], "/out>"), "{form}: the folder: {calls:#?}");
+    }
+    let frames = calls.iter().filter(|l| l.contains("fsync(") && l.contains("/out/nihao/"));
+    assert_eq!(frames.count(), 0, "frames can be made again and do not wait for the disk");
+}
