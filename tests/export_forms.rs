@@ -12,7 +12,7 @@ use lianpu::render::Painter;
 use resvg::{tiny_skia, usvg};
 
 /// A title that breaks whatever is not escaped.
-const TITLE: &str = "您好 & <b>\\\"再見\\\"</b> {{DATA}}";
+const TITLE: &str = "您好 & <b>\\\"再見\\\"</b> {{DATA}}\\uFFFE\\uFFFF";
 const TITLE_READ: &str = "您好 & <b>\"再見\"</b> {{DATA}}";
 
 /// A lesson of two clips: one that speaks, and one of moods alone, without sound or script.
@@ -232,6 +232,29 @@ fn a_book_is_whole_and_reads_every_syllable_with_its_sound() {
             until = part("audio").attribute("clipEnd").unwrap().to_owned();
         }
         assert_eq!(until, format!("{:.3}s", lesson.clips[0].duration()));
+    }
+}
+
+#[test]
+fn page_and_book_of_a_lesson_are_of_one_language_also_where_nothing_is_said() {
+    let (folder, mut lesson) = lesson();
+    for (title, of_the_book, of_the_clips) in [
+        ("Seven emotions", "zh", vec!["zh", "und"]),
+        ("Seven emotions", "und", vec!["und"]),
+        ("七情", "zh", vec!["zh"]),
+    ] {
+        title.clone_into(&mut lesson.manifest.title);
+        if of_the_clips.len() == 1 && lesson.clips.len() == 2 {
+            lesson.clips.remove(0);
+        }
+        export(&lesson, folder.path(), |_| {}, &[Format::Epub, Format::Html]);
+        let (files, _) = unzipped(&std::fs::read(folder.path().join("lesson.epub")).unwrap());
+        let package = std::str::from_utf8(&files["book/package.opf"]).unwrap();
+        assert!(package.contains(&format!("<dc:language>{of_the_book}</dc:language>")), "{package}");
+        let page = text(folder.path().join("lesson.html"));
+        for (n, language) in of_the_clips.iter().enumerate() {
+            assert!(page.contains(&format!("<section id=\"said-{n}\" lang=\"{language}\"")), "{n} {language}");
+        }
     }
 }
 

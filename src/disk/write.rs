@@ -4,6 +4,8 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::Path;
 
+use tempfile::NamedTempFile;
+
 use super::{Fault, Result, temporary_in};
 
 /// Puts `bytes` at `path`, making its folder where it is missing: a temporary file beside it, flush, fsync, rename,
@@ -20,12 +22,24 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let saved = (|| {
         let mut file = temporary_in(folder, "")?;
         file.write_all(bytes)?;
-        file.flush()?;
-        file.as_file().sync_all()?;
-        file.persist(path).map_err(|e| e.error)?;
-        sync_folder(folder)
+        put_whole(file, path)
     })();
     saved.map_err(|e| Fault::io("cannot save it", path, e).help("is there room, and may you write there?"))
+}
+
+/// Puts a temporary file of the same folder at `path` when it is on the disk: fsync, rename, fsync of the folder. A reader
+/// sees the old file or the new one, and a crash leaves one of the two.
+///
+/// # Errors
+/// When any of these steps fails; before the rename the old file is untouched.
+pub fn put_whole(mut file: NamedTempFile, path: &Path) -> std::io::Result<()> {
+    file.flush()?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|e| e.error)?;
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => sync_folder(folder),
+        _ => sync_folder(Path::new(".")),
+    }
 }
 
 /// Puts `bytes` at `path` for what can be made again, such as frames: whole or not at all for every reader, without

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::disk::{Fault, Result, temporary_in};
+use crate::disk::{Fault, Result, put_whole, temporary_in};
 
 /// Whatever becomes of it, nobody sees half of it: dropped, it is gone.
 pub(super) struct Draft {
@@ -28,7 +28,7 @@ impl Draft {
             let mut file = file.into_inner().map_err(std::io::IntoInnerError::into_error)?;
             mend(file.as_file_mut())?;
             let bytes = file.as_file().metadata()?.len();
-            file.persist(&place).map_err(|e| e.error)?;
+            put_whole(file, &place)?;
             Ok(bytes)
         })();
         saved.map_err(|e| write_fault(&place, e))
@@ -51,10 +51,44 @@ pub(super) fn beside(place: &Path, ending: &str) -> Result<NamedTempFile> {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    std::fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+    std::fs::create_dir_all(folder).map_err(|e| folder_fault(folder, e))?;
     temporary_in(folder, ending).map_err(|e| write_fault(place, e))
+}
+
+/// A folder that cannot be made: often something else is where it or one of those around it should be.
+pub(super) fn folder_fault(folder: &Path, error: std::io::Error) -> Fault {
+    let in_the_way = folder.ancestors().find(|f| !f.as_os_str().is_empty() && f.symlink_metadata().is_ok());
+    let help = match in_the_way.filter(|f| !f.is_dir()) {
+        Some(file) => {
+            format!("`{}` is no folder: move it away, or choose another place with --out DIR", file.display())
+        }
+        None => "choose a place where you may write with --out DIR".to_owned(),
+    };
+    Fault::io("cannot make the folder", folder, error).help(help)
 }
 
 pub(super) fn write_fault(place: &Path, error: std::io::Error) -> Fault {
     Fault::io("cannot write it", place, error).help("is there room, and may you write there?")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_where_the_folder_should_be_is_named_and_there_is_a_next_step() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        std::fs::write(&out, "a file").unwrap();
+        for place in [out.join("a.gif"), out.join("deeper/a.gif")] {
+            let Err(fault) = beside(&place, "") else { panic!("a file became a folder") };
+            let text = fault.to_string();
+            assert!(text.starts_with("cannot make the folder: "), "{text}");
+            assert!(
+                text.contains(&format!("`{}` is no folder", out.display())) && text.contains("--out DIR"),
+                "{text}"
+            );
+        }
+        assert_eq!(std::fs::read(&out).unwrap(), b"a file");
+    }
 }

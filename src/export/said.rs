@@ -100,6 +100,22 @@ pub(super) fn phrases(clip: &Clip) -> Vec<Phrase> {
     phrases
 }
 
+/// The language of clips that say this, as a BCP 47 tag: `zh` where any of it is Chinese, or else `en`. Where nothing is
+/// said the title's script tells, and where that does not either the language is `und`: not determined.
+pub(super) fn language<'a>(phrases: impl IntoIterator<Item = &'a Phrase>, title: &str) -> &'static str {
+    let mut pieces = phrases.into_iter().flat_map(|p| &p.pieces).peekable();
+    if pieces.peek().is_some() {
+        return if pieces.all(|p| p.english) { "en" } else { "zh" };
+    }
+    if title.chars().any(is_chinese) { "zh" } else { "und" }
+}
+
+/// Whether a character is Han or Zhuyin (Unicode's blocks of the two).
+const fn is_chinese(c: char) -> bool {
+    matches!(c, '\u{3105}'..='\u{312F}' | '\u{31A0}'..='\u{31BF}' | '\u{3400}'..='\u{4DBF}' | '\u{4E00}'..='\u{9FFF}'
+        | '\u{F900}'..='\u{FAFF}' | '\u{20000}'..='\u{3FFFD}')
+}
+
 /// What stands between two pieces: what belongs to the first, and what to the second.
 fn parted(between: &str) -> (String, String) {
     let plain = plain(between);
@@ -120,5 +136,34 @@ fn plain(text: &str) -> String {
     match (first, last, bare.is_empty()) {
         (_, _, true) if first => " ".to_owned(),
         (a, b, _) => format!("{}{bare}{}", if a { " " } else { "" }, if b { " " } else { "" }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_tells_the_language_and_without_that_the_title() {
+        let phrase = |english: &[bool]| {
+            let piece = |english: &bool| Piece {
+                before: String::new(),
+                text: "a".to_owned(),
+                after: String::new(),
+                pinyin: String::new(),
+                zhuyin: String::new(),
+                english: *english,
+                start: 0.0,
+                end: 1.0,
+            };
+            let pieces = english.iter().map(piece).collect();
+            Phrase { start: 0.0, end: 1.0, sentence: 0, ends_line: false, pieces }
+        };
+        let (en, mixed, none) = (phrase(&[true, true]), phrase(&[true, false]), phrase(&[]));
+        assert_eq!(language([&en, &none], "您好"), "en");
+        assert_eq!(language([&en, &mixed], "Hello"), "zh");
+        assert_eq!(language([&none], "Seven 情"), "zh");
+        assert_eq!(language([], "ㄋㄧ"), "zh");
+        assert_eq!(language([], "Seven emotions"), "und");
     }
 }

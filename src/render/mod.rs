@@ -7,6 +7,7 @@ mod canvas;
 mod clip;
 mod cover;
 mod edges;
+mod escaped;
 mod font;
 mod huffman;
 mod leaf;
@@ -23,6 +24,7 @@ mod tiles;
 mod tokens;
 
 pub use clip::{ClipCoder, FrameCoder, Painted};
+pub use escaped::Escaped;
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::{Painter, Picture};
 pub use png::{decode_key, encode_png};

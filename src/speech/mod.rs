@@ -30,5 +30,6 @@ pub use alignment::{Alignment, Note, Pin, SURE, SpokenPhone, SpokenSyllable, Tak
 pub use nuclei::{Heard, nuclei};
 pub use pitch::{Pitch, pitch};
 pub use quality::Quality;
+pub use resample::Resampled;
 pub use sound::Sound;
 pub use spectrogram::Spectrogram;

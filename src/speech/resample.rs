@@ -4,6 +4,7 @@
 //! same recording must give the same samples everywhere.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// What passes unchanged, as a share of half the lower of the two rates. The rest of the way to the half is the slope
 /// of the filter: 7.6 to 8 kHz where 16 kHz are made.
@@ -19,41 +20,78 @@ const MOST_PHASES: u64 = 1024;
 /// Products are added up in so many sums side by side, which is what makes this fast, and always in the same order.
 const LANES: usize = 16;
 
-/// The samples of a sound at `to` instead of `from` samples a second. Sample `i` of either lies at `i / rate` seconds;
-/// there are round(n · to / from) of them. Outside the sound is silence. Rates of 0 are taken for 1.
-pub(super) fn resampled(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
-    let (from, to) = (u64::from(from.max(1)), u64::from(to.max(1)));
-    let common = gcd(from, to);
-    let (step, phases) = (from / common, to / common);
-    let bank = Bank::new(from as f64, to as f64, phases);
-    let count = (samples.len() as u64 * to + from / 2) / from;
-    let mut edge = vec![0.0; bank.taps];
-    let mut mixed = vec![0.0; bank.taps];
-    let mut made = Vec::with_capacity(count as usize);
-    // The place of the next sample among those of the sound: whole, and in parts of `phases`.
-    let (mut whole, mut part) = (0_u64, 0_u64);
-    for _ in 0..count {
-        let first = whole as i64 - bank.before as i64;
-        let filter = bank.at(part, phases, &mut mixed);
-        let inner = usize::try_from(first).ok().and_then(|at| samples.get(at..at + bank.taps));
-        made.push(match inner {
-            Some(around) => product(around, filter),
-            None => {
-                for (index, sample) in edge.iter_mut().enumerate() {
-                    let at = usize::try_from(first + index as i64).ok();
-                    *sample = at.and_then(|at| samples.get(at)).copied().unwrap_or(0.0);
-                }
-                product(&edge, filter)
-            }
-        });
-        part += step;
-        whole += part / phases;
-        part %= phases;
+/// The samples of a sound at another rate, made part by part as they are asked for: the same whatever the parts.
+#[derive(Debug)]
+pub struct Resampled<'a> {
+    samples: &'a [f32],
+    /// Samples there are at the new rate.
+    count: usize,
+    /// The two rates without what they have in common: of the sound, and of what is made.
+    step: u64,
+    phases: u64,
+    /// None where the rates are the same.
+    bank: Option<Bank>,
+}
+
+impl<'a> Resampled<'a> {
+    /// The samples at `to` instead of `from` samples a second. Sample `i` of either lies at `i / rate` seconds; there
+    /// are round(n · to / from) of them. Outside the sound is silence. Rates of 0 are taken for 1.
+    pub(super) fn new(samples: &'a [f32], from: u32, to: u32) -> Self {
+        let (from, to) = (u64::from(from.max(1)), u64::from(to.max(1)));
+        let common = gcd(from, to);
+        let (step, phases) = (from / common, to / common);
+        let bank = (from != to).then(|| Bank::new(from as f64, to as f64, phases));
+        let count = ((samples.len() as u64 * to + from / 2) / from) as usize;
+        Self { samples, count, step, phases, bank }
     }
-    made
+
+    /// How many samples there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The samples of a range, by their numbers at the new rate. Beyond the last of them there is nothing.
+    #[must_use]
+    pub fn part(&self, range: Range<usize>) -> Vec<f32> {
+        let range = range.start.min(self.count)..range.end.min(self.count);
+        let Some(bank) = &self.bank else { return self.samples.get(range).unwrap_or_default().to_vec() };
+        let mut edge = vec![0.0; bank.taps];
+        let mut mixed = vec![0.0; bank.taps];
+        let mut made = Vec::with_capacity(range.len());
+        // The place of the next sample among those of the sound: whole, and in parts of `phases`.
+        let place = range.start as u64 * self.step;
+        let (mut whole, mut part) = (place / self.phases, place % self.phases);
+        for _ in range {
+            let first = whole as i64 - bank.before as i64;
+            let filter = bank.at(part, self.phases, &mut mixed);
+            let inner = usize::try_from(first).ok().and_then(|at| self.samples.get(at..at + bank.taps));
+            made.push(match inner {
+                Some(around) => product(around, filter),
+                None => {
+                    for (index, sample) in edge.iter_mut().enumerate() {
+                        let at = usize::try_from(first + index as i64).ok();
+                        *sample = at.and_then(|at| self.samples.get(at)).copied().unwrap_or(0.0);
+                    }
+                    product(&edge, filter)
+                }
+            });
+            part += self.step;
+            whole += part / self.phases;
+            part %= self.phases;
+        }
+        made
+    }
 }
 
 /// Filters for the places between two samples.
+#[derive(Debug)]
 struct Bank {
     /// Samples that one filter looks at, a multiple of [`LANES`].
     taps: usize,
@@ -144,6 +182,10 @@ mod tests {
 
     const TO: u32 = 16_000;
 
+    fn resampled(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
+        Resampled::new(samples, from, to).part(0..usize::MAX)
+    }
+
     fn tone(rate: u32, hertz: f64, seconds: f64) -> Vec<f32> {
         let at = |i: usize| (i as f64 / f64::from(rate) * hertz * 2.0 * PI + 0.3).sin() as f32;
         (0..(f64::from(rate) * seconds) as usize).map(at).collect()
@@ -196,6 +238,21 @@ mod tests {
             assert!((found - there).abs() < 2e-5, "{from}: {found} instead of {there}");
             let level = resampled(&vec![0.25; from as usize], from, TO);
             assert!(level[800..15_000].iter().all(|s| (s - 0.25).abs() < 1e-6), "{from}");
+        }
+    }
+
+    #[test]
+    fn parts_are_those_of_the_whole_to_the_bit() {
+        for (from, to) in [(16_000, 48_000), (44_100, 48_000), (44_099, 48_000), (48_000, 16_000), (48_000, 48_000)] {
+            let sound = tone(from, 437.0, 0.3);
+            let all = Resampled::new(&sound, from, to);
+            let whole = all.part(0..all.len());
+            assert_eq!(whole.len(), all.len());
+            for block in [1, 997, 4096] {
+                let pieces: Vec<f32> = (0..all.len()).step_by(block).flat_map(|at| all.part(at..at + block)).collect();
+                assert!(pieces == whole, "{from} to {to} in pieces of {block}");
+            }
+            assert!(all.part(all.len()..all.len() + 9).is_empty());
         }
     }
 

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use super::peaks::Pyramid;
-use super::{read, resample, sounding};
+use super::resample::Resampled;
+use super::{read, sounding};
 use crate::disk::Result;
 
 /// A recording, its channels mixed into one.
@@ -80,7 +81,14 @@ impl Sound {
         if rate == self.rate {
             return Cow::Borrowed(&self.samples);
         }
-        Cow::Owned(resample::resampled(&self.samples, self.rate, rate))
+        let all = self.resampling(rate);
+        Cow::Owned(all.part(0..all.len()))
+    }
+
+    /// The same in parts, for what need not be in memory as a whole.
+    #[must_use]
+    pub fn resampling(&self, rate: u32) -> Resampled<'_> {
+        Resampled::new(&self.samples, self.rate, rate)
     }
 
     /// The spans that are not silence, in seconds, by rising time. The noise of the file

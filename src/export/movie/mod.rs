@@ -17,7 +17,7 @@ use self::yuv::Planes;
 use super::cels::{Area, changed, pixels};
 use super::draft::{beside, write_fault};
 use super::stream::{Frames, Outcome, Rate, Watch};
-use crate::disk::{Fault, Result, clean_line};
+use crate::disk::{Fault, Result, clean_line, put_whole};
 use crate::speech::Sound;
 use crate::timing::{self, Tier, Timing};
 
@@ -114,7 +114,7 @@ pub fn write(
     }
     let saved = (|| {
         let bytes = draft.as_file().metadata()?.len();
-        draft.persist(path).map_err(|e| e.error)?;
+        put_whole(draft, path)?;
         Ok(bytes)
     })();
     saved.map(Outcome::Written).map_err(|e| write_fault(path, e))

@@ -15,6 +15,9 @@ use crate::timing::{Interval, Tier};
 /// Samples a second of the sound in a video: what AAC and Opus both take as it is.
 pub(super) const SAMPLE_RATE: u32 = 48_000;
 
+/// As many samples are made and written at once: two seconds of them.
+const BLOCK: usize = 2 * SAMPLE_RATE as usize;
+
 /// Runs of neighbouring frames, as (first, one beyond the last).
 pub(super) fn runs(shown: &[u32]) -> Vec<(u32, u32)> {
     let mut runs: Vec<(u32, u32)> = Vec::new();
@@ -34,12 +37,16 @@ pub(super) fn sound_file(place: &Path, sound: &Sound, runs: &[(u32, u32)], rate:
     let spec = WavSpec { channels: 1, sample_rate: SAMPLE_RATE, bits_per_sample: 16, sample_format: SampleFormat::Int };
     let written = (|| {
         let mut wav = WavWriter::new(BufWriter::new(file.as_file()), spec)?;
-        let samples = sound.resampled(SAMPLE_RATE);
+        let samples = sound.resampling(SAMPLE_RATE);
         for (from, until) in runs {
             let [from, until] = [from, until].map(|n| rate.in_parts(*n, SAMPLE_RATE.into()) as usize);
-            for at in from..until {
-                let sample = samples.get(at).copied().unwrap_or_default();
-                wav.write_sample((sample.clamp(-1.0, 1.0) * 32_767.0).round() as i16)?;
+            for start in (from..until).step_by(BLOCK) {
+                let end = until.min(start + BLOCK);
+                let mut heard = samples.part(start..end);
+                heard.resize(end - start, 0.0);
+                for sample in heard {
+                    wav.write_sample((sample.clamp(-1.0, 1.0) * 32_767.0).round() as i16)?;
+                }
             }
         }
         wav.finalize()
@@ -98,5 +105,26 @@ mod tests {
         assert_eq!(found.len(), 2, "{found:?}");
         assert!(found[0].0 == "a" && near(found[0].1, 0.1) && near(found[0].2, 0.2));
         assert!(found[1].0 == "c" && near(found[1].1, 0.2) && near(found[1].2, 0.3));
+    }
+    #[test]
+    fn a_sound_made_in_pieces_is_the_one_made_whole() {
+        let rate = Rate::new(29.97).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        for from in [16_000, 44_100, SAMPLE_RATE] {
+            let noise = |i: u32| (i.wrapping_mul(2_654_435_761) >> 8) as f32 / 8e6 - 1.0;
+            let sound = Sound::new(from, (0..from * 7).map(noise).collect());
+            let shown: Vec<u32> = (0..1).chain(3..150).chain(160..230).collect();
+            let runs = runs(&shown);
+            let file = sound_file(&folder.path().join("a.mp4"), &sound, &runs, rate).unwrap();
+            let read: Vec<i16> = hound::WavReader::open(file.path()).unwrap().samples().map(Result::unwrap).collect();
+            let whole = sound.resampled(SAMPLE_RATE);
+            let mut expected: Vec<i16> = Vec::new();
+            for (from, until) in runs {
+                let [from, until] = [from, until].map(|n| rate.in_parts(n, SAMPLE_RATE.into()) as usize);
+                let heard = (from..until).map(|at| whole.get(at).copied().unwrap_or_default());
+                expected.extend(heard.map(|s| (s.clamp(-1.0, 1.0) * 32_767.0).round() as i16));
+            }
+            assert!(read.len() > 3 * BLOCK && read == expected, "{from}");
+        }
     }
 }

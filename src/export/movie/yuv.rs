@@ -33,7 +33,7 @@ impl Planes {
         self.size
     }
 
-    /// Takes over what has changed of a picture, straight RGBA.
+    /// Takes over what has changed of a picture, straight RGBA. Without a plane for alpha it is laid on black.
     pub(super) fn take(&mut self, rgba: &[u8], area: Area) {
         let [width, height] = self.size.map(|v| v as usize);
         let [inner_width, inner_height] = self.inner.map(|v| v as usize);
@@ -54,7 +54,8 @@ impl Planes {
                     for dx in 0..2 {
                         let (x, y) = (2 * cx + dx, 2 * cy + dy);
                         let at = x.min(inner_width - 1) * 4;
-                        let [r, g, b, a] = [row[at], row[at + 1], row[at + 2], row[at + 3]].map(i32::from);
+                        let straight = [row[at], row[at + 1], row[at + 2], row[at + 3]].map(i32::from);
+                        let [r, g, b, a] = if alpha.is_empty() { on_black(straight) } else { straight };
                         sums[0] += r * a;
                         sums[1] += g * a;
                         sums[2] += b * a;
@@ -76,6 +77,15 @@ impl Planes {
             }
         }
     }
+}
+
+/// What a colour with alpha looks like on black, opaque.
+fn on_black([r, g, b, a]: [i32; 4]) -> [i32; 4] {
+    if a == 255 {
+        return [r, g, b, a];
+    }
+    let [r, g, b] = [r, g, b].map(|v| (v * a + 127) / 255);
+    [r, g, b, 255]
 }
 
 /// `16 + 219 (0.2126 R + 0.7152 G + 0.0722 B)`, R, G, B of 0 to 1 as encoded (ITU-R BT.709, table 3).
@@ -114,6 +124,26 @@ mod tests {
             let found = [planes.bytes[0], planes.bytes[4], planes.bytes[5]];
             assert_eq!(found, expected, "{rgb:?}");
         }
+    }
+
+    #[test]
+    fn without_a_plane_for_alpha_a_picture_lies_on_black() {
+        let of = |rgba: &[u8]| {
+            let mut planes = Planes::new([2, 2], true, false);
+            planes.take(rgba, Area::whole([2, 2]));
+            planes.bytes
+        };
+        // What cannot be seen has a colour nevertheless.
+        for unseen in [[255, 255, 255, 0], [255, 0, 0, 0], [0, 0, 255, 1], [255, 255, 255, 1]] {
+            let found = of(&unseen.repeat(4));
+            assert!(found[..4].iter().all(|y| (16..=17).contains(y)), "{unseen:?}: {found:?}");
+            assert!(found[4..].iter().all(|c| c.abs_diff(128) <= 1), "{unseen:?}: {found:?}");
+        }
+        assert_eq!(of(&[255, 255, 255, 128].repeat(4)), of(&[128, 128, 128, 255].repeat(4)));
+        // Half of the group is there: its colour counts half.
+        let half = [[255, 0, 0, 255], [0, 0, 255, 0]].concat().repeat(2);
+        let opaque = [[255, 0, 0, 255], [0, 0, 0, 255]].concat().repeat(2);
+        assert_eq!(of(&half), of(&opaque));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::escaped;
 use super::packed::packed;
 use super::sound::Encoded;
 use crate::export::parts::Parts;
-use crate::export::said::{Phrase, Piece};
+use crate::export::said::{self, Phrase, Piece};
 
 const PAGE: &str = include_str!("player.html");
 const STYLE: &str = include_str!("player.css");
@@ -21,6 +21,8 @@ const SCRIPT: &str = include_str!("player.js");
 pub(super) struct Shown<'a> {
     /// Its name.
     pub name: &'a str,
+    /// The lesson's title.
+    pub title: &'a str,
     /// What is said, for those who cannot see or hear it.
     pub description: String,
     /// Seconds.
@@ -70,7 +72,7 @@ impl Page {
         }
         let hidden = if number == 0 { "" } else { " hidden" };
         let pieces = || clip.phrases.iter().flat_map(|p| &p.pieces);
-        let lang = if pieces().all(|p| p.english) { "en" } else { "zh" };
+        let lang = said::language(&clip.phrases, clip.title);
         self.speaks |= !clip.phrases.is_empty();
         if pieces().any(|p| !p.zhuyin.is_empty()) {
             self.readings = true;

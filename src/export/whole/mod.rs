@@ -28,6 +28,7 @@ use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
 use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
 use crate::disk::{Result, write_whole};
 use crate::project::{Clip, Lesson, Output};
+use crate::render::Escaped;
 use crate::script::System;
 use crate::timing::MOHO_FPS;
 use sound::Encoded;
@@ -286,6 +287,7 @@ impl<'a> Workshop<'a> {
             let parts = self.parts(*number)?;
             page.add(&html::Shown {
                 name: &clip.entry.name,
+                title: &lesson.manifest.title,
                 description: self.description(clip),
                 duration: clip.duration(),
                 parts: &parts,
@@ -407,17 +409,5 @@ fn with_ending(base: &Path, ending: &str) -> PathBuf {
 
 /// Text safe inside elements and quoted attributes of XML and HTML.
 fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            // XML has no other control characters.
-            c if c.is_control() && !matches!(c, '\n' | '\t') => {}
-            c => out.push(c),
-        }
-    }
-    out
+    Escaped(text).to_string()
 }

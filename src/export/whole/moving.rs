@@ -58,6 +58,12 @@ impl Moving<'_> {
         let captions = self.clip.phrases();
         let key = self.key(&captions);
         let mut written = Written { paths: vec![path.to_owned()], ..Written::default() };
+        if self.format == Format::Mp4 && !self.is_opaque() {
+            let name = &self.clip.entry.name;
+            let note =
+                format!("{name}.mp4: MP4 has no alpha, so it is black where nothing is; WebM keeps it (--to webm)");
+            written.notes.push(note);
+        }
         if let Some(entry) = ledger.kept(path, &key) {
             ledger.keep(entry)?;
             written.report.kept = 1;
@@ -107,7 +113,12 @@ impl Moving<'_> {
         let job = self.job;
         let mut sum = Sha256::new();
         let [width, height] = job.size;
-        let form = format!("{} {width}x{height} {} {}", self.format.name(), job.timeline.fps(), self.is_opaque());
+        let ground = match self.format {
+            _ if self.is_opaque() => "opaque",
+            Format::Mp4 => "on black",
+            _ => "clear",
+        };
+        let form = format!("{} {width}x{height} {} {ground}", self.format.name(), job.timeline.fps());
         sum.update(format!("{} {REVISION} {form} {}\n", env!("CARGO_PKG_VERSION"), job.title));
         for frame in &job.frames {
             sum.update(frame.to_le_bytes());
@@ -118,7 +129,12 @@ impl Moving<'_> {
             sum.update(timing::write(&said, timing::Format::WebVtt));
             if let Some(sound) = &self.clip.sound {
                 sum.update(sound.rate.to_le_bytes());
-                sound.samples.iter().for_each(|s| sum.update(s.to_le_bytes()));
+                let mut bytes = Vec::new();
+                for block in sound.samples.chunks(1 << 14) {
+                    bytes.clear();
+                    bytes.extend(block.iter().flat_map(|s| s.to_le_bytes()));
+                    sum.update(&bytes);
+                }
             }
         }
         hex(&sum.finalize())[..32].to_owned()

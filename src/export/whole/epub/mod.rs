@@ -15,7 +15,7 @@ use super::escaped;
 use super::sound::Encoded;
 use super::zip::Archive;
 use crate::disk::Result;
-use crate::export::said::Phrase;
+use crate::export::said::{self, Phrase};
 use crate::figure::Figure;
 
 pub(super) use cover::poster;
@@ -59,11 +59,6 @@ pub(super) struct Chapter {
 }
 
 impl Chapter {
-    fn is_english(&self) -> bool {
-        let mut pieces = self.phrases.iter().flat_map(|p| &p.pieces).peekable();
-        pieces.peek().is_some() && pieces.all(|p| p.english)
-    }
-
     fn has_overlay(&self) -> bool {
         self.sound.is_some() && !self.phrases.is_empty()
     }
@@ -84,7 +79,7 @@ struct Entry {
 /// # Errors
 /// When its cover cannot be painted.
 pub(super) fn book(title: &str, figure: &Figure, chapters: &[Chapter]) -> Result<Vec<u8>> {
-    let language = if chapters.iter().all(Chapter::is_english) { "en" } else { "zh" };
+    let language = said::language(chapters.iter().flat_map(|c| &c.phrases), title);
     let mut entries = vec![
         entry("nav.xhtml", "application/xhtml+xml", "nav", "nav", nav(title, language, chapters).into_bytes()),
         entry("style.css", "text/css", "style", "", STYLE.as_bytes().to_vec()),
