@@ -1,5 +1,6 @@
 //! Lessons in a real browser: the page is played as its reader plays it, and animated SVG shows what the frames show.
-//! Where there is no Chromium a line says so.
+//! Where there is no Chromium a line says so. Lottie is shown by lottie-web where `LIANPU_LOTTIE_WEB` names its
+//! `lottie.min.js` (npm: `lottie-web`, in `build/player`).
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
@@ -101,6 +102,7 @@ fn lessons_play_in_a_real_browser() {
     let (folder, lesson) = lesson();
     the_page_plays_as_its_reader_wants(&mut browser, folder.path(), &lesson);
     animated_svg_shows_what_the_frames_show(&mut browser, folder.path(), &lesson);
+    lottie_shows_what_the_frames_show(&mut browser, folder.path(), &lesson);
 }
 
 fn the_page_plays_as_its_reader_wants(browser: &mut Chromium, folder: &Path, lesson: &Lesson) {
@@ -279,6 +281,35 @@ fn animated_svg_shows_what_the_frames_show(browser: &mut Chromium, folder: &Path
              r(Math.abs(svg.getCurrentTime() - document.querySelector('audio').currentTime - 0.02)); }))",
         );
         assert!(apart < 0.06, "picture and sound are {apart:.3} s apart");
+        assert!(tab.faults.is_empty(), "{:?}", tab.faults);
+    }
+}
+
+fn lottie_shows_what_the_frames_show(browser: &mut Chromium, folder: &Path, lesson: &Lesson) {
+    let Some(player) = std::env::var_os("LIANPU_LOTTIE_WEB") else {
+        println!("LIANPU_LOTTIE_WEB does not name lottie.min.js: no Lottie was played");
+        return;
+    };
+    let player = std::fs::read_to_string(player).unwrap();
+    let out = export(folder, lesson, Format::Lottie, false);
+    let job = job(lesson);
+    let mut painter = Painter::new(SIZE[0], SIZE[1]).unwrap();
+    let data = std::fs::read_to_string(out.join("你好.json")).unwrap().replace('<', "\\u003c");
+    for renderer in ["svg", "canvas"] {
+        let page = out.join(format!("{renderer}.html"));
+        let text = format!(
+            "<!DOCTYPE html><meta charset=\"utf-8\"><body style=\"margin:0\"><div id=\"a\" style=\"width:640px;height:360px\">\
+             </div><script>{player}</script><script>var player = lottie.loadAnimation({{ container: a, renderer: \
+             '{renderer}', loop: false, autoplay: false, animationData: {data} }});</script>"
+        );
+        std::fs::write(&page, text).unwrap();
+        let mut tab = browser.open(&page, SIZE);
+        tab.wait("player.isLoaded");
+        assert_eq!(tab.eval("player.totalFrames"), job.count);
+        for frame in some(job.count) {
+            tab.eval(&format!("player.goToAndStop({frame}, true); true"));
+            assert_alike(&painter.paint(&job.drawing(frame)), &tab.seen(), &format!("frame {frame} by {renderer}"));
+        }
         assert!(tab.faults.is_empty(), "{:?}", tab.faults);
     }
 }

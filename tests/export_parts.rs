@@ -166,3 +166,177 @@ fn what_is_asked_of_a_clip_is_told_alike_for_every_share() {
     assert_eq!(clips, asked(&lesson, &one).unwrap());
     assert_eq!(clips[0].whole.iter().filter(|w| w.starts_with("lesson.")).count(), 2);
 }
+
+/// `lianpu export` of a lesson's parts into a folder.
+fn part(lesson: &Path, out: &Path, part: &str, forms: &str) -> assert_cmd::assert::Assert {
+    let mut command = lianpu();
+    command.arg("export").arg(lesson).args(["--to", forms, "--size", "96x54", "--shard", part, "--out"]).arg(out);
+    command.assert()
+}
+
+fn merged(out: &Path) -> (bool, String) {
+    let run = lianpu().arg("merge").arg(out).output().unwrap();
+    (run.status.success(), String::from_utf8(run.stderr).unwrap())
+}
+
+#[test]
+fn a_style_that_changes_between_two_parts_is_noticed_as_well() {
+    let folder = tempfile::tempdir().unwrap();
+    let (lesson, out) = (folder.path().join("lesson"), folder.path().join("out"));
+    copy(&sample("nihao"), &lesson);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let style = std::fs::read_to_string(root.join("src/figure/cartoon/styles/normal.toml")).unwrap();
+    std::fs::create_dir(lesson.join("styles")).unwrap();
+    std::fs::write(lesson.join("styles/own.toml"), &style).unwrap();
+    let manifest = std::fs::read_to_string(lesson.join("lianpu.toml")).unwrap();
+    let own = manifest.replace("figure = \"cartoon\"", "figure = \"cartoon\"\nstyle = \"styles/own.toml\"");
+    assert_ne!(own, manifest);
+    std::fs::write(lesson.join("lianpu.toml"), own).unwrap();
+    part(&lesson, &out, "1/2", "png").success();
+    std::fs::write(lesson.join("styles/own.toml"), style.clone() + "\n# Another.\n").unwrap();
+    part(&lesson, &out, "2/2", "png").success();
+    let (done, said) = merged(&out);
+    assert!(!done && said.contains("part 2/2 is of another export"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_a_lesson_s_folder_holds_beside_the_lesson_neither_stops_an_export_nor_leads_out_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let lesson = folder.path().join("lesson");
+    copy(&sample("nihao"), &lesson);
+    let clip = lesson.join("clips/nihao");
+    let state = || {
+        let lesson = Lesson::read(&lesson).unwrap();
+        asked(&lesson, &Request::new(vec![Format::Srt])).unwrap()[0].settings["lesson"].clone()
+    };
+    let before = state();
+    let elsewhere = folder.path().join("elsewhere");
+    std::fs::create_dir(&elsewhere).unwrap();
+    std::os::unix::fs::symlink(&elsewhere, clip.join("out")).unwrap();
+    std::os::unix::fs::symlink(".", clip.join("round")).unwrap();
+    let pipe = std::process::Command::new("mkfifo").arg(clip.join("pipe")).status();
+    assert!(pipe.is_err() || clip.join("pipe").exists());
+    let with_links = state();
+    assert_ne!(before, with_links);
+    std::fs::write(elsewhere.join("more"), "more").unwrap();
+    assert_eq!(with_links, state(), "what a link leads to is not read");
+}
+
+#[test]
+fn a_part_that_fails_is_not_done_and_frames_of_a_longer_export_go() {
+    let folder = tempfile::tempdir().unwrap();
+    let (course, out) = (folder.path().join("course"), folder.path().join("out"));
+    copy(&sample("nihao"), &course.join("one"));
+    copy(&sample("nihao"), &course.join("two"));
+    part(&course, &out, "1/2", "png").success();
+    part(&course, &out, "2/2", "png").success();
+    assert!(merged(&out).0);
+    let manifest = course.join("two/lianpu.toml");
+    let good = std::fs::read_to_string(&manifest).unwrap();
+    std::fs::write(&manifest, "format = 1\nnonsense").unwrap();
+    part(&course, &out, "1/2", "png").failure();
+    let (done, said) = merged(&out);
+    assert!(!done && said.contains("1/2"), "{said}");
+    // At half the frames a second half of the frames are left over, whichever part removes them.
+    std::fs::write(&manifest, good).unwrap();
+    for index in ["1/3", "2/3", "3/3"] {
+        let mut command = lianpu();
+        command.arg("export").arg(&course).args(["--to", "png", "--size", "96x54", "--fps", "12.5", "--shard", index]);
+        command.arg("--out").arg(&out).assert().success();
+    }
+    let (done, said) = merged(&out);
+    assert!(done, "the manifests of another division are gone: {said}");
+    let frames = std::fs::read_dir(out.join("one/nihao")).unwrap().count();
+    let listed = Manifest::read(&out.join("manifest.json")).unwrap();
+    assert_eq!(frames, listed.files.iter().filter(|f| f.path.starts_with("one/")).count());
+}
+
+#[test]
+fn several_exports_into_one_place_at_once_lose_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let forms = ["srt", "vtt", "textgrid", "rhubarb", "moho", "poses", "ratios", "gif"];
+    let runs: Vec<_> = forms
+        .iter()
+        .map(|form| {
+            let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("lianpu"));
+            command.arg("export").arg(sample("nihao")).args(["--to", form, "--size", "48x27", "--out"]).arg(&out);
+            command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::null()).spawn().unwrap()
+        })
+        .collect();
+    assert!(runs.into_iter().all(|mut run| run.wait().unwrap().success()));
+    let manifest = Manifest::read(&out.join("manifest.json")).unwrap();
+    let listed: BTreeSet<&str> = manifest.files.iter().map(|f| f.path.as_str()).collect();
+    let there: Vec<String> =
+        std::fs::read_dir(&out).unwrap().flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    let there: BTreeSet<&str> = there.iter().map(String::as_str).filter(|n| *n != "manifest.json").collect();
+    assert_eq!(listed, there);
+    let asked: BTreeSet<&str> = manifest.clips.iter().flat_map(|c| &c.whole).map(String::as_str).collect();
+    assert_eq!(asked, listed);
+    assert!(merged(&out).0);
+}
+
+#[test]
+fn a_manifest_says_what_is_there_after_other_forms_and_other_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let export = |words: &[&str]| {
+        let mut command = lianpu();
+        command.arg("export").arg(sample("nihao")).args(["--size", "96x54", "--out"]).arg(&out).args(words);
+        command.assert().success();
+        Manifest::read(&out.join("manifest.json")).unwrap()
+    };
+    export(&["--to", "svg,srt", "--frames", "0-2"]);
+    let two = export(&["--to", "png", "--frames", "5-6"]);
+    let rows: Vec<_> = two.clips.iter().map(|c| (c.frame_forms.join(","), c.frames.clone(), c.whole.len())).collect();
+    assert_eq!(rows, [("png".into(), vec![(5, 6)], 0), ("svg".into(), vec![(0, 2)], 2)]);
+    // Some of them in another size, and one file gone.
+    std::fs::remove_file(out.join("nihao.srt")).unwrap();
+    let three = export(&["--to", "svg", "--frames", "2", "--background", "white"]);
+    let rows: Vec<_> = three.clips.iter().map(|c| (c.frame_forms.join(","), c.frames.clone(), c.whole.len())).collect();
+    assert_eq!(
+        rows,
+        [("svg".into(), vec![(2, 2)], 0), ("png".into(), vec![(5, 6)], 0), ("svg".into(), vec![(0, 1)], 1)]
+    );
+    assert!(merged(&out).0);
+}
+
+#[test]
+fn names_that_would_meet_are_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let lesson = folder.path().join("lesson");
+    copy(&sample("nihao"), &lesson);
+    let refused = |clips: [&str; 2], words: &[&str]| {
+        std::fs::remove_dir_all(lesson.join("clips")).unwrap();
+        for clip in clips {
+            copy(&sample("nihao").join("clips/nihao"), &lesson.join("clips").join(clip));
+        }
+        let rows = clips.map(|c| format!("[[clip]]\nname = \"{c}\"\nscript_system = \"han\"\n"));
+        let face = "[[face]]\nname = \"teacher\"\nfigure = \"cartoon\"\n";
+        std::fs::write(lesson.join("lianpu.toml"), format!("format = 1\ntitle = \"A\"\n{face}{}{}", rows[0], rows[1]))
+            .unwrap();
+        let out = folder.path().join("out");
+        let run = lianpu().arg("export").arg(&lesson).args(words).arg("--out").arg(&out).output().unwrap();
+        (run.status.code() == Some(2) && !out.exists(), String::from_utf8(run.stderr).unwrap())
+    };
+    for (clips, words) in [
+        (["a", "a.gif"], &["--to", "png,gif"][..]),
+        (["a", "manifest-1-of-2"], &["--to", "lottie", "--shard", "1/2"]),
+        (["a", "lesson"], &["--to", "html", "--clip", "lesson"]),
+    ] {
+        let (right, said) = refused(clips, words);
+        assert!(right && said.contains("rename"), "{clips:?}: {said}");
+    }
+}
+
+#[test]
+fn a_lesson_without_the_clip_that_is_asked_for_does_not_stop_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut command = lianpu();
+    command.arg("export").args([sample("seven-emotions"), sample("nihao")]).args(["--to", "srt", "--clip", "nihao"]);
+    let run = command.arg("--out").arg(&out).output().unwrap();
+    assert_eq!(run.status.code(), Some(1));
+    assert!(out.join("nihao/nihao.srt").exists() && out.join("manifest.json").exists());
+}

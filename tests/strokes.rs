@@ -50,23 +50,23 @@ fn error(chain: &[Ribbon], path: &BezPath, high: f64) -> f64 {
     off / all
 }
 
-fn painted(painter: &mut Painter, path: BezPath) -> Vec<f32> {
+fn painted(painter: &mut Painter, chain: &[Ribbon]) -> Vec<f32> {
     let drawing = Drawing {
         view: Rect::new(0.0, 0.0, SIDE, SIDE),
         title: String::new(),
         description: String::new(),
         background: None,
-        layers: vec![Layer { name: "strokes".into(), items: vec![Item::area("", path, Colour::BLACK)] }],
+        layers: vec![Layer { name: "strokes".into(), items: vec![Item::ink("", chain.to_vec(), Colour::BLACK)] }],
     };
     painter.paint(&drawing).rgba.chunks_exact(4).map(|p| f32::from(p[3]) / 255.0).collect()
 }
 
 /// What is painted wrongly, as a share of what should be painted.
-fn painted_error(painter: &mut Painter, chain: &[Ribbon], path: BezPath) -> f64 {
+fn painted_error(painter: &mut Painter, chain: &[Ribbon]) -> f64 {
     let larger = |k: Knot| Knot::new(k.x * SCALE, k.y * SCALE, k.w * SCALE);
     let larger: Vec<Ribbon> = chain.iter().map(|r| Ribbon(r.0.map(larger))).collect();
     let truth = Rows::of_discs(&larger, 0.0, 1.0 / ROWS as f64, PIXELS * ROWS).pixels(PIXELS, ROWS);
-    let found = painted(painter, path);
+    let found = painted(painter, chain);
     let off: f64 = truth.iter().zip(&found).map(|(a, b)| f64::from((a - b).abs())).sum();
     off / truth.iter().map(|v| f64::from(*v)).sum::<f64>()
 }
@@ -199,7 +199,7 @@ fn pixels_show_the_union_of_the_discs() {
     let strokes = drawn().into_iter().map(|(name, s)| (name.to_owned(), vec![s]));
     let random = random().into_iter().enumerate().map(|(i, s)| (format!("random {i}"), vec![s]));
     for (name, chain) in strokes.chain(random) {
-        errors.0.push((painted_error(&mut painter, &chain, outline(&chain, TOLERANCE)), name));
+        errors.0.push((painted_error(&mut painter, &chain), name));
     }
     errors.tell("strokes, painted");
     let mut thin = Errors::default();
@@ -208,8 +208,9 @@ fn pixels_show_the_union_of_the_discs() {
         let fit = 720.0 / 664.0 / SCALE;
         let place = |k: Knot| Knot::new((k.x + 40.0) * fit, (k.y - 100.0) * fit, k.w * fit);
         let chain: Vec<Ribbon> = chain.iter().map(|r| Ribbon(r.0.map(place))).collect();
-        thin.0.push((painted_error(&mut painter, &chain, outline(&chain, TOLERANCE * fit)), name));
+        thin.0.push((painted_error(&mut painter, &chain), name));
     }
     thin.tell("lines of a face, painted");
     assert!(errors.mean() <= MEAN && errors.worst().0 <= WORST);
+    assert!(thin.mean() <= MEAN && thin.worst().0 <= WORST);
 }

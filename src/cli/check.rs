@@ -38,7 +38,8 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 }
             };
             let line = if args.json {
-                let mut line = serde_json::json!({ "project": project, "finding": kind, "text": text });
+                let mut line =
+                    serde_json::json!({ "project": project.to_string_lossy(), "finding": kind, "text": text });
                 if let Finding::Wrong(fault) = &finding {
                     line["text"] = fault.what().into();
                     line["file"] = fault.path().map(|p| p.display().to_string()).into();

@@ -7,10 +7,12 @@ use clap::Parser;
 
 use super::output_fault;
 use crate::disk::{Fault, Result};
-use crate::export::{Engine, Farm, MOST_TASKS};
+use crate::export::{Engine, Farm, MOST_TASKS, asked};
 use crate::project::Lesson;
 
-/// Print the job that exports lessons on many machines: an array of parts, and a task that joins them.
+/// Print the job that exports lessons on many machines.
+///
+/// It is an array of parts, and a task after them that joins them.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// slurm, openjd or parallel.
@@ -43,11 +45,14 @@ pub struct Args {
 /// # Errors
 /// When a lesson cannot be read, options are none of `lianpu export`, or a path cannot stand in a job.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    let mut options = vec!["--to".to_owned(), args.formats.clone()];
+    options.extend(args.more.iter().cloned());
+    let request = super::export::request_of(&check_options(&options)?, false);
     let projects = super::lessons(&args.projects);
     let mut frames = 0;
     for project in &projects {
-        let lesson = Lesson::read(project)?;
-        frames += (0..lesson.clips.len()).map(|clip| u64::from(lesson.timeline(clip, None).frames())).sum::<u64>();
+        let clips = asked(&Lesson::read(project)?, &request)?;
+        frames += clips.iter().map(|clip| u64::from(clip.count())).sum::<u64>();
     }
     let place = match (&args.out, &projects[..]) {
         (Some(out), _) => out.clone(),
@@ -62,9 +67,6 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let full = |p: &PathBuf| p.canonicalize().map_err(|e| Fault::io("cannot open the folder", p, e));
     let projects = projects.iter().map(full).collect::<Result<Vec<_>>>()?;
     let projects: Vec<&Path> = projects.iter().map(PathBuf::as_path).collect();
-    let mut options = vec!["--to".to_owned(), args.formats.clone()];
-    options.extend(args.more.iter().cloned());
-    check_options(&options)?;
     let lessons = u32::try_from(projects.len()).unwrap_or(MOST_TASKS);
     let farm = Farm {
         program: &args.program,
@@ -79,7 +81,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
 }
 
 /// What `lianpu export` would refuse is refused now, not on every machine.
-fn check_options(options: &[String]) -> Result<()> {
+fn check_options(options: &[String]) -> Result<super::export::Args> {
     for own in ["--shard", "--out", "--jobs"] {
         if options.iter().any(|o| o == own || o.starts_with(&format!("{own}="))) {
             return Err(Fault::new(format!("the job itself says `{own}`"))
@@ -87,12 +89,20 @@ fn check_options(options: &[String]) -> Result<()> {
                 .of_the_call());
         }
     }
-    let words = ["lianpu", "export"].into_iter().chain(options.iter().map(String::as_str)).chain(["--", "x"]);
-    super::Cli::try_parse_from(words).map(drop).map_err(|e| {
-        let text = e.to_string();
-        let what = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+    let refused = |what: &str| {
         Fault::new(format!("`lianpu export` would refuse this: {what}"))
             .help("see `lianpu export --help`")
             .of_the_call()
-    })
+    };
+    // A word of its own stands where the lessons will.
+    const LESSON: &str = "x";
+    let words = ["lianpu", "export"].into_iter().chain(options.iter().map(String::as_str)).chain(["--", LESSON]);
+    let parsed = super::Cli::try_parse_from(words).map_err(|e| {
+        let text = e.to_string();
+        refused(text.lines().next().unwrap_or_default().trim_start_matches("error: "))
+    })?;
+    match parsed.command {
+        Some(super::Command::Export(args)) if args.projects == [Path::new(LESSON)] => Ok(args),
+        _ => Err(Fault::new("only options may stand after the `--`").help("name the lessons before it").of_the_call()),
+    }
 }

@@ -7,7 +7,7 @@ use super::output_fault;
 use crate::disk::Result;
 use crate::export::merge;
 
-/// Join the parts of an export that was divided, and check that nothing is missing or damaged.
+/// Join the parts of an export that was divided among machines, and check that nothing is missing or damaged.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The folder that the parts were exported into.
@@ -25,7 +25,7 @@ pub struct Args {
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let merged = merge(&args.folder)?;
     if args.json {
-        let line = serde_json::json!({ "path": merged.path, "parts": merged.parts, "files": merged.files,
+        let line = serde_json::json!({ "path": merged.path.to_string_lossy(), "parts": merged.parts, "files": merged.files,
             "bytes": merged.bytes });
         return writeln!(out, "{line}").map_err(output_fault);
     }

@@ -47,11 +47,8 @@ enum Command {
     Align(align::Args),
     /// Say what lessons have, lack, and have wrong.
     Check(check::Args),
-    /// Write lessons as frames and subtitles.
     Export(export::Args),
-    /// Join the parts of an export that was divided among machines.
     Merge(merge::Args),
-    /// Print the job that exports lessons on many machines.
     Farm(farm::Args),
     /// Find the points of a face in its photo, for its cartoon.
     Face(face::Args),

@@ -1,14 +1,16 @@
 //! What an export is asked for, clip by clip, known before anything is made: all parts of a divided export tell the same.
 
 use std::collections::{BTreeMap, HashSet};
-use std::fs;
-use std::path::{Component, Path};
+use std::fs::{self, File};
+use std::io::ErrorKind;
+use std::path::{Component, Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::manifest::hex;
+use super::manifest::{add_content, hex};
 use super::plan::{checked_output, chosen_clips, frames_asked, out_folder, root_folder, texts_of};
-use super::{Asked, Format, Manifest, Request, Shard, wholes};
+use super::whole::TOGETHER;
+use super::{Asked, Format, Request, wholes};
 use crate::disk::{Fault, Result};
 use crate::project::Lesson;
 use crate::render::REVISION;
@@ -22,6 +24,7 @@ pub fn asked(lesson: &Lesson, request: &Request) -> Result<Vec<Asked>> {
     let output = checked_output(lesson, request)?;
     let (root, out) = (root_folder(lesson, request), out_folder(lesson, request));
     let wholes = wholes(lesson, &whole_request)?;
+    let project = project_name(lesson)?;
     let mut all = Vec::new();
     for (place, number) in chosen_clips(lesson, request)?.into_iter().enumerate() {
         let entry = &lesson.clips[number].entry;
@@ -34,16 +37,21 @@ pub fn asked(lesson: &Lesson, request: &Request) -> Result<Vec<Asked>> {
         let frame_forms: Vec<String> =
             request.formats.iter().filter(|f| f.is_frames()).map(|f| f.name().to_owned()).collect();
         all.push(Asked {
-            project: project_name(lesson),
+            project: project.clone(),
             clip: entry.name.clone(),
-            settings: settings(lesson, number, request, &output),
+            settings: settings(lesson, number, request, &output)?,
             folder: if frame_forms.is_empty() { String::new() } else { within(&root, &out.join(&entry.name)) },
             frame_forms,
             frames: Asked::runs(&frames),
             whole: whole.map(|path| within(&root, &path)).collect(),
         });
     }
-    check_names(&all)?;
+    if request.clip.as_deref() == Some(TOGETHER) && request.formats.iter().any(|f| f.is_of_the_lesson()) {
+        return Err(Fault::new(format!("the page of the clip `{TOGETHER}` would take the name of the whole lesson's"))
+            .help("rename the clip, or leave out --clip")
+            .of_the_call());
+    }
+    check_names(&all, request.by_project && request.out.is_some())?;
     Ok(all)
 }
 
@@ -58,9 +66,13 @@ pub(super) fn within(root: &Path, path: &Path) -> String {
 }
 
 /// The lesson by its folder, as several are told apart that go into one place.
-pub(super) fn project_name(lesson: &Lesson) -> String {
+fn project_name(lesson: &Lesson) -> Result<String> {
     let full = lesson.root.canonicalize().unwrap_or_else(|_| lesson.root.clone());
-    full.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+    let Some(name) = full.file_name() else { return Ok(String::new()) };
+    let name = name.to_str().map(str::to_owned);
+    name.ok_or_else(|| {
+        Fault::new("the folder's name is not in UTF-8, which a manifest's must be").at(&full).help("rename the folder")
+    })
 }
 
 /// Whatever changes a clip's files: parts that differ in it are parts of different exports.
@@ -69,7 +81,7 @@ fn settings(
     clip: usize,
     request: &Request,
     output: &crate::project::Output,
-) -> BTreeMap<String, String> {
+) -> Result<BTreeMap<String, String>> {
     let background = match request.background {
         None => "the figure's".to_owned(),
         Some(None) => "transparent".to_owned(),
@@ -80,7 +92,7 @@ fn settings(
         ("fps".to_owned(), output.fps.to_string()),
         ("background".to_owned(), background),
         ("renderer".to_owned(), REVISION.to_string()),
-        ("lesson".to_owned(), state_of(lesson, clip)),
+        ("lesson".to_owned(), state_of(lesson, clip)?),
     ]);
     if let Some(width) = request.width {
         all.insert("width".into(), width.name().into());
@@ -88,57 +100,66 @@ fn settings(
     if request.thesis && request.formats.contains(&Format::Smil) {
         all.insert("smil".into(), "thesis".into());
     }
-    all
+    Ok(all)
 }
 
-/// Content beyond this many bytes, such as that of a long video, counts by its length alone.
-const READ: u64 = 64 << 20;
+/// Folders in folders beyond this depth are no part of a lesson.
+const DEEP: u32 = 8;
 
-/// Sixteen digits that change with the files a clip and its face are kept in. No file's place or time is among them, so
-/// that copies of a lesson on several machines agree.
-fn state_of(lesson: &Lesson, clip: usize) -> String {
-    let entry = &lesson.clips[clip].entry;
+/// Sixteen digits that change with the files a clip, its faces, figures and styles are kept in. No file's place or time is
+/// among them, so that copies of a lesson on several machines agree. Links count by where they lead, and what is neither
+/// file nor folder by its name.
+fn state_of(lesson: &Lesson, clip: usize) -> Result<String> {
     let mut sum = Sha256::new();
-    add_file(&mut sum, &lesson.root, &lesson.root.join("lianpu.toml"));
-    add_folder(&mut sum, &lesson.root, &lesson.root.join("clips").join(&entry.name));
-    for face in &lesson.faces {
-        add_folder(&mut sum, &lesson.root, &lesson.root.join("faces").join(&face.entry.name));
+    let root = &lesson.root;
+    add(&mut sum, root, &root.join("lianpu.toml"), DEEP)?;
+    add(&mut sum, root, &root.join("clips").join(&lesson.clips[clip].entry.name), DEEP)?;
+    for folder in ["faces", "figures", "styles", "layers"] {
+        add(&mut sum, root, &root.join(folder), DEEP)?;
     }
-    hex(&sum.finalize())[..16].to_owned()
+    Ok(hex(&sum.finalize())[..16].to_owned())
 }
 
-fn add_folder(sum: &mut Sha256, root: &Path, folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    let mut paths: Vec<_> = entries.flatten().map(|e| e.path()).collect();
-    paths.sort();
-    for path in paths {
-        let hidden = path.file_name().is_none_or(|n| n.to_string_lossy().starts_with('.'));
-        match (hidden, path.is_dir()) {
-            (true, _) => {}
-            (false, true) => add_folder(sum, root, &path),
-            (false, false) => add_file(sum, root, &path),
+fn add(sum: &mut Sha256, root: &Path, path: &Path, deep: u32) -> Result<()> {
+    let fault = |e| Fault::io("cannot read it", path, e);
+    let about = match fs::symlink_metadata(path) {
+        Ok(about) => about,
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(e) => return Err(fault(e)),
+    };
+    let name = within(root, path);
+    sum.update(name.len().to_le_bytes());
+    sum.update(name);
+    if about.is_symlink() {
+        sum.update(fs::read_link(path).map_err(fault)?.as_os_str().as_encoded_bytes());
+    } else if about.is_file() {
+        sum.update(about.len().to_le_bytes());
+        let mut file = File::open(path).map_err(fault)?;
+        add_content(sum, &mut file).map_err(fault)?;
+    } else if about.is_dir() && deep > 0 {
+        let entries: Vec<_> = fs::read_dir(path).and_then(Iterator::collect).map_err(fault)?;
+        let mut paths: Vec<PathBuf> = entries.into_iter().map(|e: fs::DirEntry| e.path()).collect();
+        paths.sort();
+        for path in paths.iter().filter(|p| p.file_name().is_some_and(|n| !n.to_string_lossy().starts_with('.'))) {
+            add(sum, root, path, deep - 1)?;
         }
     }
+    Ok(())
 }
 
-fn add_file(sum: &mut Sha256, root: &Path, path: &Path) {
-    let Ok(about) = fs::metadata(path) else { return };
-    sum.update(within(root, path).as_bytes());
-    sum.update(about.len().to_le_bytes());
-    if about.len() <= READ
-        && let Ok(bytes) = fs::read(path)
-    {
-        sum.update(&bytes);
-    }
-}
-
-/// Two files of one name would be one, and the manifest's own name is taken.
-fn check_names(all: &[Asked]) -> Result<()> {
-    let own = Manifest::name(Shard::WHOLE);
-    let mut seen = HashSet::from([own.as_str()]);
-    for asked in all {
-        if let Some(twice) = asked.whole.iter().find(|path| !seen.insert(path.as_str())) {
-            return Err(Fault::new(format!("two files of this export would be `{twice}`"))
+/// Two files of one name would be one; no file can be where a folder is; and the manifests have names of their own.
+fn check_names(all: &[Asked], by_project: bool) -> Result<()> {
+    let is_manifest = |path: &str| path.starts_with("manifest") && path.ends_with(".json") && !by_project;
+    let above = |path: &str| path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
+    let folders: HashSet<String> = all
+        .iter()
+        .flat_map(|a| a.whole.iter().filter_map(|path| above(path)).chain([a.folder.clone()]))
+        .filter(|folder| !folder.is_empty())
+        .collect();
+    let mut seen = HashSet::new();
+    for path in all.iter().flat_map(|a| &a.whole) {
+        if is_manifest(path) || folders.contains(path) || !seen.insert(path) {
+            return Err(Fault::new(format!("two files of this export, or a file and a folder, would be `{path}`"))
                 .help("export the formats or clips one by one with --clip and --out, or rename a clip")
                 .of_the_call());
         }

@@ -75,7 +75,8 @@ impl Farm<'_> {
     /// When a path cannot be written down in it.
     pub fn job(&self, engine: Engine) -> Result<String> {
         let export = self.export(engine)?;
-        let merge = format!("{} merge {}", quoted(self.program), quoted(text_of(self.out, engine)?));
+        let program = quoted(text_of(Path::new(self.program), engine)?);
+        let merge = format!("{program} merge {}", quoted(text_of(self.out, engine)?));
         Ok(match engine {
             Engine::Slurm => self.slurm(&export, &merge),
             Engine::OpenJd => self.openjd(&export, &merge),
@@ -90,7 +91,7 @@ impl Farm<'_> {
             Engine::OpenJd => "{{Task.Param.Part}}",
             Engine::Parallel => "\"$1\"",
         };
-        let mut call = format!("{} export", quoted(self.program));
+        let mut call = format!("{} export", quoted(text_of(Path::new(self.program), engine)?));
         for option in self.options {
             let _ = write!(call, " {}", quoted(text_of(Path::new(option), engine)?));
         }

@@ -3,11 +3,14 @@
 //! It becomes a [`Manifest`] when the export is done, and not before. Until then files that cannot tell themselves what
 //! they were made from are noted in a draft of it, so that an export that was killed goes on where it was.
 
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
+use super::Shard;
+use super::asked::within;
 use super::manifest::{Asked, Entry, Manifest};
-use super::{Shard, asked::within};
-use crate::disk::Result;
+use super::merge::parts_in;
+use crate::disk::{Fault, Result};
 
 /// What a running export knows of its files.
 #[derive(Debug)]
@@ -57,29 +60,91 @@ impl Ledger {
         self.keep(Entry::read(&self.folder, within(&self.folder, path))?.made_from(key))
     }
 
-    /// Notes a file that tells what it was made from, at once also on disk.
+    /// Notes a file that tells what it was made from, at once also on disk, with those that earlier runs have noted.
     pub(super) fn keep(&mut self, entry: Entry) -> Result<()> {
-        self.files.push(entry);
-        let keyed = self.files.iter().filter(|e| e.key.is_some()).cloned().collect();
-        Manifest::new(self.shard, Vec::new(), keyed).write_as(&self.folder, &draft(self.shard))
+        self.files.push(entry.clone());
+        let _lock = self.lock();
+        self.write_draft(|files| {
+            files.retain(|e| e.path != entry.path);
+            files.push(entry);
+        })
+    }
+
+    /// Of a divided export, when all is known that is asked of it: what an earlier run of this part wrote for another request
+    /// no longer counts as done.
+    pub fn begin(&self) {
+        let path = self.folder.join(Manifest::name(self.shard));
+        if self.shard != Shard::WHOLE && Manifest::read(&path).is_ok_and(|m| m.clips != self.clips) {
+            let _ = fs::remove_file(path);
+        }
+    }
+
+    /// Leaves a part undone: without its manifest it is known not to be.
+    pub fn give_up(self) {
+        if self.shard != Shard::WHOLE {
+            let _ = fs::remove_file(self.folder.join(Manifest::name(self.shard)));
+        }
     }
 
     /// Writes the manifest: everything that was asked for is there. Returns its path.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn close(self) -> Result<PathBuf> {
-        let mut manifest = Manifest::new(self.shard, self.clips, self.files);
-        if self.shard == Shard::WHOLE {
-            let own = Manifest::name(Shard::WHOLE);
-            if let Ok(earlier) = Manifest::read(&self.folder.join(own)) {
-                manifest = manifest.beside(earlier, &self.folder);
-            }
+    pub fn close(mut self) -> Result<PathBuf> {
+        let clips = std::mem::take(&mut self.clips);
+        let mut manifest = Manifest::new(self.shard, clips, std::mem::take(&mut self.files));
+        fs::create_dir_all(&self.folder).map_err(|e| Fault::io("cannot make the folder", &self.folder, e))?;
+        // Several exports into one folder may end at once: each adds to what the others have.
+        let _lock = self.lock();
+        if self.shard == Shard::WHOLE
+            && let Ok(earlier) = Manifest::read(&self.folder.join(Manifest::name(Shard::WHOLE)))
+        {
+            manifest = manifest.beside(earlier, &self.folder);
         }
         let path = manifest.write(&self.folder)?;
-        // Nothing depends on its going.
-        let _ = std::fs::remove_file(self.folder.join(draft(self.shard)));
+        self.write_draft(|files| files.retain(|e| manifest.entry(&e.path).is_none()))?;
+        remove_superseded(&self.folder, &manifest);
         Ok(path)
+    }
+
+    /// Changes the draft; an empty one is removed.
+    fn write_draft(&self, change: impl FnOnce(&mut Vec<Entry>)) -> Result<()> {
+        let name = draft(self.shard);
+        let there = Manifest::read(&self.folder.join(&name)).ok();
+        let before = there.as_ref().map_or(0, |m| m.files.len());
+        let mut files = there.map(|m| m.files).unwrap_or_default();
+        change(&mut files);
+        if !files.is_empty() {
+            return Manifest::new(self.shard, Vec::new(), files).write_as(&self.folder, &name);
+        }
+        if before > 0 {
+            // Nothing depends on its going.
+            let _ = fs::remove_file(self.folder.join(name));
+        }
+        Ok(())
+    }
+
+    /// Waits until no other export changes the folder's manifests. Where folders cannot be locked nobody waits.
+    fn lock(&self) -> Option<File> {
+        let folder = File::open(&self.folder).ok()?;
+        folder.lock().ok()?;
+        Some(folder)
+    }
+}
+
+/// Manifests of parts that this one makes void: those of another division where this is a part, and those whose every file
+/// is in it where it is the whole.
+fn remove_superseded(folder: &Path, now: &Manifest) {
+    let Ok(count) = now.part().map(Shard::count) else { return };
+    for (path, part) in parts_in(folder).unwrap_or_default() {
+        let other = part.part().is_ok_and(|p| p.count() != count);
+        let is_void = match count {
+            1 => part.files.iter().all(|f| now.entry(&f.path).is_some()),
+            _ => other,
+        };
+        if is_void {
+            let _ = fs::remove_file(path);
+        }
     }
 }
 

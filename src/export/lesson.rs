@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::plan::out_folder;
-use super::{Ledger, Progress, Report, Request, Whole, plan, run, wholes, write_wholes};
+use super::{Format, Ledger, Progress, Report, Request, Whole, plan, run, wholes, write_wholes};
 use crate::disk::{Result, clear_temporaries};
 use crate::project::Lesson;
 
@@ -62,6 +62,9 @@ pub fn export(
     let made = write_wholes(lesson, request, &whole, ledger, &|whole, p| tell(Step::Whole(whole, p)), stop)?;
     let mut exported = Exported { report: report.with(&made), ..Exported::default() };
     exported.report.stopped |= made.len() < whole.len();
+    if !request.frames.is_all() {
+        exported.notes.extend(note_on_frames(request));
+    }
     for job in &jobs {
         let clip = Some(job.clip.clone());
         if !job.formats.is_empty() && !job.frames.is_empty() {
@@ -81,4 +84,11 @@ pub fn export(
         }
     }
     Ok(exported)
+}
+
+/// Some forms have no use for a part of a clip.
+fn note_on_frames(request: &Request) -> Option<String> {
+    let follows = |f: &Format| f.is_frames() || f.is_moving() || *f == Format::Poses;
+    let others: Vec<&str> = request.formats.iter().filter(|f| !follows(f)).map(|f| f.name()).collect();
+    (!others.is_empty()).then(|| format!("of the whole clip, whatever --frames says: {}", others.join(", ")))
 }

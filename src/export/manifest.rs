@@ -68,11 +68,21 @@ impl Asked {
         self.frames.iter().map(|(a, b)| b.saturating_sub(*a).saturating_add(1)).fold(0, u32::saturating_add)
     }
 
+    /// The frames one by one.
+    pub(super) fn numbers(&self) -> Vec<u32> {
+        self.frames.iter().flat_map(|(a, b)| *a..=*b).collect()
+    }
+
+    /// The file of a frame, from the manifest's folder.
+    pub(super) fn path_of(&self, frame: u32, form: &str) -> String {
+        format!("{}/{frame:06}.{form}", self.folder)
+    }
+
     /// Every file that was asked for, with the place of its frame among the clip's; whole files are at place 0.
     pub(super) fn files(&self) -> impl Iterator<Item = (u32, String)> + '_ {
         let numbers = self.frames.iter().flat_map(|(a, b)| *a..=*b);
         let frames = (0..).zip(numbers).flat_map(move |(place, number)| {
-            self.frame_forms.iter().map(move |form| (place, format!("{}/{number:06}.{form}", self.folder)))
+            self.frame_forms.iter().map(move |form| (place, self.path_of(number, form)))
         });
         self.whole.iter().map(|path| (0, path.clone())).chain(frames)
     }
@@ -121,16 +131,7 @@ impl Entry {
         let full = folder.join(&path);
         let mut file = File::open(&full).map_err(|e| Fault::io("cannot open it", &full, e))?;
         let mut sum = Sha256::new();
-        let mut part = vec![0; 1 << 16];
-        let mut bytes = 0;
-        loop {
-            let count = file.read(&mut part).map_err(|e| Fault::io("cannot read it", &full, e))?;
-            if count == 0 {
-                break;
-            }
-            sum.update(&part[..count]);
-            bytes += count as u64;
-        }
+        let bytes = add_content(&mut sum, &mut file).map_err(|e| Fault::io("cannot read it", &full, e))?;
         Ok(Self { path, bytes, sha256: hex(&sum.finalize()), key: None })
     }
 
@@ -139,6 +140,20 @@ impl Entry {
     pub fn made_from(mut self, key: impl Into<String>) -> Self {
         self.key = Some(key.into());
         self
+    }
+}
+
+/// Adds what a file holds, a little at a time; says how much it was.
+pub(super) fn add_content(sum: &mut Sha256, file: &mut File) -> std::io::Result<u64> {
+    let mut part = vec![0; 1 << 16];
+    let mut bytes = 0;
+    loop {
+        let count = file.read(&mut part)?;
+        if count == 0 {
+            return Ok(bytes);
+        }
+        sum.update(&part[..count]);
+        bytes += count as u64;
     }
 }
 
@@ -199,36 +214,6 @@ impl Manifest {
                 && Entry::read(folder, path.to_owned())
                     .is_ok_and(|now| now.bytes == entry.bytes && now.sha256 == entry.sha256)
         })
-    }
-
-    /// Takes over what an earlier manifest of the same folder has beside this one: clips and files that were not asked
-    /// for this time, as far as they are still there with the same length.
-    #[must_use]
-    pub fn beside(mut self, earlier: Self, folder: &Path) -> Self {
-        let same = |e: &Entry| std::fs::metadata(folder.join(&e.path)).is_ok_and(|m| m.len() == e.bytes);
-        let kept: Vec<Entry> =
-            earlier.files.into_iter().filter(|e| self.entry(&e.path).is_none()).filter(|e| same(e)).collect();
-        for asked in earlier.clips {
-            let again =
-                |a: &&mut Asked| a.project == asked.project && a.clip == asked.clip && a.settings == asked.settings;
-            let Some(now) = self.clips.iter_mut().find(again) else {
-                // Another clip, or the same with other settings, whose files are gone or replaced.
-                let other = self.clips.iter().any(|a| a.project == asked.project && a.clip == asked.clip);
-                if !other {
-                    self.clips.push(asked);
-                }
-                continue;
-            };
-            if now.frame_forms.is_empty() {
-                (now.folder, now.frames) = (asked.folder, asked.frames);
-                now.frame_forms = asked.frame_forms;
-            }
-            let whole: Vec<String> = asked.whole.into_iter().filter(|w| !now.whole.contains(w)).collect();
-            now.whole.extend(whole.into_iter().filter(|w| kept.iter().any(|e| e.path == *w)));
-        }
-        self.files.extend(kept);
-        self.files.sort_by(|a, b| a.path.cmp(&b.path));
-        self
     }
 
     /// Reads one; paths in it that lead out of its folder are refused.

@@ -29,7 +29,7 @@ pub struct Merged {
 /// When a part is missing or was made with other settings, a file is missing, damaged, in no part, or in two that
 /// differ: with the part to be run again.
 pub fn merge(folder: &Path) -> Result<Merged> {
-    let found = manifests(folder)?;
+    let found = parts_in(folder)?;
     if found.is_empty() {
         let path = folder.join(Manifest::name(Shard::WHOLE));
         if !path.is_file() {
@@ -38,6 +38,7 @@ pub fn merge(folder: &Path) -> Result<Merged> {
                 .help("give the folder that `lianpu export --shard I/N` wrote into, once its parts are done"));
         }
         let whole = Manifest::read(&path)?;
+        check_asked(folder, &whole, &whole.files, 1)?;
         check_files(folder, &whole.files, |_| None)?;
         return Ok(done(path, 1, &whole));
     }
@@ -48,6 +49,10 @@ pub fn merge(folder: &Path) -> Result<Merged> {
     check_files(folder, &files, |path| owners.get(path).and_then(|index| Shard::new(*index, count)))?;
     let mut whole = Manifest::new(Shard::WHOLE, parts[0].clips.clone(), files);
     whole.program.clone_from(&parts[0].program);
+    // Forms that were exported here before and are still there.
+    if let Ok(earlier) = Manifest::read(&folder.join(Manifest::name(Shard::WHOLE))) {
+        whole = whole.beside(earlier, folder);
+    }
     let path = whole.write(folder)?;
     Ok(done(path, count, &whole))
 }
@@ -57,7 +62,7 @@ fn done(path: PathBuf, parts: u32, whole: &Manifest) -> Merged {
 }
 
 /// The manifests of parts in a folder, in the order of their names.
-fn manifests(folder: &Path) -> Result<Vec<(PathBuf, Manifest)>> {
+pub(super) fn parts_in(folder: &Path) -> Result<Vec<(PathBuf, Manifest)>> {
     let entries = std::fs::read_dir(folder).map_err(|e| {
         Fault::io("cannot list the folder", folder, e).help("give the folder that the parts were exported into")
     })?;
@@ -91,7 +96,11 @@ fn all_parts(folder: &Path, found: Vec<(PathBuf, Manifest)>) -> Result<Vec<Manif
             let other = count.unwrap_or_default();
             return Err(Fault::new(format!("parts of two exports are mixed: of {other} and of {}", shard.count()))
                 .at(&path)
-                .help("remove the manifests of the older one; frames that both have stay as they are"));
+                .help(format!(
+                    "remove the older ones' manifests, `manifest-*-of-{other}.json` or `manifest-*-of-{}.json`; frames that \
+                     both have stay as they are",
+                    shard.count()
+                )));
         }
         parts.insert(shard.index(), (path, manifest));
     }
@@ -176,10 +185,14 @@ fn check_asked(folder: &Path, first: &Manifest, files: &[Entry], count: u32) -> 
             if has(&path) {
                 continue;
             }
-            let owns = |shard: &Shard| divide(&counts, *shard)[clip].frames.contains(&place);
-            let owner = (1..=count).filter_map(|i| Shard::new(i, count)).find(owns);
-            let fault = Fault::new("it was asked for, but no part wrote it").at(folder.join(path));
-            return Err(fault.help(owner.map_or_else(|| "run all parts again".into(), again)));
+            let is_whole = asked.whole.contains(&path);
+            let owns = |shard: &Shard| {
+                let share = &divide(&counts, *shard)[clip];
+                if is_whole { share.whole_files } else { share.frames.contains(&place) }
+            };
+            let owner = (1..=count).filter_map(|i| Shard::new(i, count)).find(owns).filter(|_| count > 1);
+            let fault = Fault::new("it was asked for, but no part wrote it");
+            return Err(fault.at(folder.join(path)).help(owner.map_or_else(|| "run the export again".into(), again)));
         }
     }
     Ok(())

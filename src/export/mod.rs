@@ -4,6 +4,7 @@
 
 pub mod apng;
 mod asked;
+mod beside;
 mod captions;
 mod cels;
 mod digests;

@@ -93,8 +93,9 @@ pub struct Job {
     pub folder: PathBuf,
     /// The frames to write.
     pub frames: Vec<u32>,
-    /// Whether these are all frames of the clip, so that later ones are left over from before.
-    pub whole: bool,
+    /// Whether frames beyond the clip's end, which an earlier and longer export left, are removed: where all are asked for,
+    /// by the part that has the first.
+    pub clears: bool,
     /// How many frames the clip has.
     pub count: u32,
     /// Pixels.
@@ -154,7 +155,7 @@ pub(super) fn frames_asked(request: &Request, name: &str, count: u32) -> Result<
 
 /// A file that carries a clip's times as text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Text {
+pub(super) enum Times {
     TextGrid,
     Vtt,
     Srt,
@@ -167,12 +168,12 @@ pub(super) fn texts_of<'a>(
     request: &'a Request,
     clip: &'a str,
     out: &'a Path,
-) -> impl Iterator<Item = (Text, PathBuf)> + 'a {
+) -> impl Iterator<Item = (Times, PathBuf)> + 'a {
     let texts = |format: &Format| match format {
-        Format::TextGrid => &[(Text::TextGrid, "TextGrid")][..],
-        Format::Vtt => &[(Text::Vtt, "vtt")],
-        Format::Srt => &[(Text::Srt, "srt"), (Text::KaraokeSrt, "karaoke.srt")],
-        Format::Poses => &[(Text::Poses, "poses.csv")],
+        Format::TextGrid => &[(Times::TextGrid, "TextGrid")][..],
+        Format::Vtt => &[(Times::Vtt, "vtt")],
+        Format::Srt => &[(Times::Srt, "srt"), (Times::KaraokeSrt, "karaoke.srt")],
+        Format::Poses => &[(Times::Poses, "poses.csv")],
         _ => &[],
     };
     let all = request.formats.iter().flat_map(texts);
@@ -238,19 +239,18 @@ fn job(
         Some(share) => asked.get(share.frames.start as usize..share.frames.end as usize).unwrap_or_default().to_vec(),
         None => asked.clone(),
     };
-    let whole = request.frames.is_all() && frames.len() == asked.len();
-    let with_texts = share.is_none_or(|s| s.whole_files);
-    let texts = texts_of(request, &clip.entry.name, out).filter(|_| with_texts).map(|(text, path)| {
+    let whole_files = share.is_none_or(|s| s.whole_files);
+    let texts = texts_of(request, &clip.entry.name, out).filter(|_| whole_files).map(|(text, path)| {
         // Subtitles are for an audience, which reads phrases; the TextGrid is for people who edit times.
         let text = match text {
-            Text::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
-            Text::Vtt => captions::vtt(&said::phrases(clip)),
-            Text::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
-            Text::Srt => {
+            Times::TextGrid => crate::timing::write(&clip.timing, crate::timing::Format::TextGrid),
+            Times::Vtt => captions::vtt(&said::phrases(clip)),
+            Times::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
+            Times::Srt => {
                 let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
                 crate::timing::write(&phrases, crate::timing::Format::Srt)
             }
-            Text::Poses => poses::to_csv(&timeline, &asked),
+            Times::Poses => poses::to_csv(&timeline, &asked),
         };
         (path, text)
     });
@@ -261,7 +261,7 @@ fn job(
         root: root_folder(lesson, request),
         folder: out.join(&clip.entry.name),
         frames,
-        whole,
+        clears: request.frames.is_all() && whole_files,
         count,
         size: output.size,
         background: request.background,

@@ -67,14 +67,14 @@ pub fn run(
                 report.bytes += text.len() as u64;
             }
         }
+        if job.clears && !job.formats.is_empty() {
+            report.removed += remove_left_over(job);
+        }
         if job.formats.is_empty() || job.frames.is_empty() {
             continue;
         }
         std::fs::create_dir_all(&job.folder)
             .map_err(|e| elsewhere(Fault::io("cannot make the folder", &job.folder, e)))?;
-        if job.whole {
-            report.removed += remove_left_over(job);
-        }
         files.extend(pool.install(|| write_frames(job, &tally, progress, stop))?);
     }
     report.written += tally.written.load(Ordering::Relaxed);

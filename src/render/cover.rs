@@ -44,14 +44,15 @@ impl Cover {
             self.marks.resize(words * area.height(), 0);
         }
         let (mut top, mut bottom) = (area.y1, area.y0);
-        for edge in &edges.0 {
+        for edge in &edges.all {
             if let Some((first, last)) = self.edge(edge, frame) {
                 top = top.min(first);
                 bottom = bottom.max(last + 1);
             }
         }
+        let steps = (edges.steps, 255 / edges.steps.max(1));
         for y in top..bottom {
-            self.row(y, frame, &mut span);
+            self.row(y, frame, steps, &mut span);
         }
     }
 
@@ -150,7 +151,7 @@ impl Cover {
 
     /// Tells the runs of one row and leaves it zero.
     #[inline]
-    fn row(&mut self, y: i32, frame: Frame, span: &mut impl FnMut(i32, i32, i32, u32)) {
+    fn row(&mut self, y: i32, frame: Frame, steps: (u32, u32), span: &mut impl FnMut(i32, i32, i32, u32)) {
         let row = (y - frame.area.y0) as usize;
         let start = row * frame.stride;
         let wide = frame.area.width();
@@ -161,7 +162,7 @@ impl Cover {
                 let x = 64 * word + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
                 sum += std::mem::take(&mut self.sums[start + x]);
-                let now = share(sum);
+                let now = share(sum, steps);
                 if now != cover && x < wide {
                     if cover > 0 {
                         span(y, frame.area.x0 + from as i32, frame.area.x0 + x as i32, cover);
@@ -176,17 +177,14 @@ impl Cover {
     }
 }
 
-/// Cover is told in so many steps: more can hardly be seen, and fewer different pixels make smaller files.
-const LEVELS: u32 = 15;
-
 /// The nearest whole number, below 2^31 either way: the sum's last bits are it.
 #[inline]
 fn whole(v: f64) -> i32 {
     (v + 6_755_399_441_055_744.0).to_bits() as i32
 }
 
-/// A sum as 0 to 255. Where an outline lies over itself it covers once.
+/// A sum as 0 to 255, in so many steps of so much. Where an outline lies over itself it covers once.
 #[inline]
-fn share(sum: i32) -> u32 {
-    (sum.unsigned_abs().min(FULL as u32) * LEVELS + FULL as u32 / 2) / FULL as u32 * (255 / LEVELS)
+fn share(sum: i32, (steps, step): (u32, u32)) -> u32 {
+    (sum.unsigned_abs().min(FULL as u32) * steps + FULL as u32 / 2) / FULL as u32 * step
 }

@@ -6,8 +6,10 @@ use crate::geometry::{Affine, BezPath, PathEl, Point, Vec2};
 /// Edges are told in so many parts of a pixel, as a power of 2.
 pub(super) const BITS: u32 = 8;
 
-/// Curves are cut so finely that no piece is further from them, in pixels.
+/// Curves are cut so finely that no piece is further from them, in pixels …
 const FLAT: f64 = 0.06;
+/// … and those of drawn lines, which are thin.
+const FLAT_OF_LINES: f64 = 0.025;
 
 /// No edge reaches further out, in pixels: a picture has at most 16,384.
 pub(super) const FAR: f64 = 1e6;
@@ -24,12 +26,30 @@ pub(super) struct Edge {
 
 /// The edges of a filled outline, every contour closed. Level ones add no area, but are a border that tiles must know.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Edges(pub(super) Vec<Edge>);
+pub(super) struct Edges {
+    pub(super) all: Vec<Edge>,
+    /// In how many steps pixels they cross are covered: a divisor of 255, or 0 without edges.
+    pub(super) steps: u32,
+}
+
+/// Steps of cover of areas: more can hardly be seen, and fewer different pixels make smaller files …
+const STEPS: u32 = 15;
+/// … and of drawn lines, which may have nothing but such pixels.
+const STEPS_OF_LINES: u32 = 255;
 
 impl Edges {
     /// The outline `path`, moved to the picture by `place`.
     pub(super) fn of(path: &BezPath, place: Affine) -> Self {
-        let mut edges = Self(Vec::with_capacity(4 * path.elements().len()));
+        Self::flattened(path, place, FLAT, STEPS)
+    }
+
+    /// The same of drawn lines.
+    pub(super) fn of_lines(path: &BezPath, place: Affine) -> Self {
+        Self::flattened(path, place, FLAT_OF_LINES, STEPS_OF_LINES)
+    }
+
+    fn flattened(path: &BezPath, place: Affine, flat: f64, steps: u32) -> Self {
+        let mut edges = Self { all: Vec::with_capacity(4 * path.elements().len()), steps };
         let (mut start, mut last) = (Point::ZERO, Point::ZERO);
         let (mut first, mut at) = ((0, 0), (0, 0));
         let mut to = |at: &mut (i32, i32), p: Point| {
@@ -51,12 +71,12 @@ impl Edges {
                 PathEl::QuadTo(a, p) => {
                     let (a, p) = (place * a, place * p);
                     // The same curve as a cubic.
-                    cubic(last, last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0), p, &mut |q| to(&mut at, q));
+                    cubic(last, last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0), p, flat, &mut |q| to(&mut at, q));
                     last = p;
                 }
                 PathEl::CurveTo(a, b, p) => {
                     let (a, b, p) = (place * a, place * b, place * p);
-                    cubic(last, a, b, p, &mut |q| to(&mut at, q));
+                    cubic(last, a, b, p, flat, &mut |q| to(&mut at, q));
                     last = p;
                 }
                 PathEl::ClosePath => {
@@ -72,13 +92,13 @@ impl Edges {
     /// The pixels that the outline reaches.
     pub(super) fn bounds(&self) -> Area {
         let mut all = Area { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };
-        for e in &self.0 {
+        for e in &self.all {
             all.x0 = all.x0.min(e.x0.min(e.x1));
             all.x1 = all.x1.max(e.x0.max(e.x1));
             all.y0 = all.y0.min(e.y0);
             all.y1 = all.y1.max(e.y1);
         }
-        if self.0.is_empty() {
+        if self.all.is_empty() {
             return Area::NONE;
         }
         Area { x0: all.x0 >> BITS, y0: all.y0 >> BITS, x1: (all.x1 >> BITS) + 1, y1: (all.y1 >> BITS) + 1 }
@@ -89,7 +109,7 @@ impl Edges {
             return;
         }
         let (a, b, down) = if a.1 <= b.1 { (a, b, 1) } else { (b, a, -1) };
-        self.0.push(Edge { x0: a.0, y0: a.1, x1: b.0, y1: b.1, down });
+        self.all.push(Edge { x0: a.0, y0: a.1, x1: b.0, y1: b.1, down });
     }
 }
 
@@ -101,11 +121,11 @@ fn whole(p: Point) -> (i32, i32) {
 }
 
 /// Cuts a cubic into even steps of its parameter, as many as its second differences ask for (Wang's bound).
-fn cubic(p: Point, a: Point, b: Point, q: Point, to: &mut impl FnMut(Point)) {
+fn cubic(p: Point, a: Point, b: Point, q: Point, flat: f64, to: &mut impl FnMut(Point)) {
     let bend = |a: Point, b: Point, c: Point| (a.to_vec2() - 2.0 * b.to_vec2() + c.to_vec2()).hypot2();
     let most = bend(p, a, b).max(bend(a, b, q)).sqrt();
     // Not a number where a coordinate is none: one step.
-    let steps = ((0.75 * most / FLAT).sqrt() as u32 + 1).min(500);
+    let steps = ((0.75 * most / flat).sqrt() as u32 + 1).min(500);
     let (c3, c2, c1): (Vec2, Vec2, Vec2) =
         (q - p + 3.0 * (a - b), 3.0 * (p.to_vec2() - 2.0 * a.to_vec2() + b.to_vec2()), 3.0 * (a - p));
     let step = 1.0 / f64::from(steps);

@@ -182,13 +182,14 @@ fn text_start(text: &Text, font: Option<&FontFile>) -> Point {
 }
 
 fn shape(item: &Item, place: Affine, font: Option<&FontFile>) -> Shape {
-    let fill = |path: &BezPath, place: Affine, c: Colour| match c.a {
+    let filled = |edges: &dyn Fn() -> Edges, c: Colour| match c.a {
         0 => Shape::Nothing,
-        _ => Shape::Fill { edges: Edges::of(path, place), pixel: pixel_of([c.r, c.g, c.b, c.a]) },
+        _ => Shape::Fill { edges: edges(), pixel: pixel_of([c.r, c.g, c.b, c.a]) },
     };
+    let fill = |path: &BezPath, place: Affine, c: Colour| filled(&|| Edges::of(path, place), c);
     match item {
         Item::Area(area) => fill(&area.path, place, area.colour),
-        Item::Ink(ink) => fill(&outline(&ink.strokes, TOLERANCE), place, ink.colour),
+        Item::Ink(ink) => filled(&|| Edges::of_lines(&outline(&ink.strokes, TOLERANCE), place), ink.colour),
         Item::Text(text) => {
             let start = Affine::translate(text_start(text, font).to_vec2());
             fill(&text_outline(&text.text, text.size, font), place * start, text.colour)

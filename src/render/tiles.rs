@@ -122,7 +122,7 @@ impl Grid {
         let (first, last) = (columns.start as i32, columns.end as i32 - 1);
         // For each tile whether it is crossed, and how the winding changes from the tile before it.
         let mut tiles = vec![(false, 0_i32); columns.len() * rows.len()];
-        for e in &edges.0 {
+        for e in &edges.all {
             let top = e.y0.div_euclid(high).max(rows.start as i32);
             // An edge that ends on the border between two rows touches both.
             let bottom = e.y1.div_euclid(high).min(rows.end as i32 - 1);

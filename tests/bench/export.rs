@@ -100,7 +100,8 @@ fn timed(what: impl FnOnce()) -> (f64, f64) {
 
 fn per_frame((wall, processor): (f64, f64), frames: u32) -> String {
     let ms = |s: f64| 1000.0 * s / f64::from(frames);
-    let processor = if processor.is_nan() { String::new() } else { format!(" ({:.3} of the processor)", ms(processor)) };
+    let processor =
+        if processor.is_nan() { String::new() } else { format!(" ({:.3} of the processor)", ms(processor)) };
     format!("{:.4} ms a frame{processor}", ms(wall))
 }
 
@@ -164,7 +165,8 @@ fn harder(job: &Job, folder: &Path, head: bool) -> (f64, f64) {
             let mut pose = job.timeline.pose(job.timeline.time_of(*frame));
             if head {
                 let t = f64::from(*frame);
-                pose.head = Head { x: 0.05 * (0.13 * t).sin(), y: 0.03 * (0.17 * t).cos(), roll: 4.0 * (0.11 * t).sin() };
+                pose.head =
+                    Head { x: 0.05 * (0.13 * t).sin(), y: 0.03 * (0.17 * t).cos(), roll: 4.0 * (0.11 * t).sin() };
             } else {
                 // The golden section's multiples never meet.
                 let any = (f64::from(*frame) * 0.618_034).fract();

@@ -19,16 +19,25 @@ pub(super) struct Course<'a> {
     pub(super) json: bool,
 }
 
+/// Lessons that could not be exported.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Failed {
+    pub(super) count: u32,
+    /// Those of them that nothing is wrong with: what was asked for does not fit them.
+    pub(super) of_the_call: u32,
+}
+
 /// A project and what of its clips is to be done; everything where left out.
 type Work<'p> = (&'p Path, Option<Vec<Share>>);
 
 impl Course<'_> {
-    /// Exports lessons that share a manifest. Returns how many failed, each with its reason told.
-    pub(super) fn export(&self, projects: &[PathBuf], out: &mut dyn Write) -> Result<u32> {
-        let mut failed = 0;
+    /// Exports lessons that share a manifest. Tells of each that failed why.
+    pub(super) fn export(&self, projects: &[PathBuf], out: &mut dyn Write) -> Result<Failed> {
+        let mut failed = Failed::default();
         let folder = self.request.out.clone().or_else(|| projects.first().map(|p| p.join("export")));
         let mut ledger = Ledger::open(&folder.unwrap_or_default(), self.shard);
         let work = self.shares(projects, &mut ledger, &mut failed)?;
+        ledger.begin();
         for (project, shares) in work {
             let request = Request { shares, ..self.request.clone() };
             if request.shares.as_ref().is_some_and(|all| all.iter().all(Share::is_empty)) {
@@ -38,31 +47,32 @@ impl Course<'_> {
                 self.forgive(project, fault, &mut failed)?;
             }
         }
-        if failed > 0 && self.shard != Shard::WHOLE {
-            // Without its manifest the part is known not to be done.
+        if failed.count > 0 && self.shard != Shard::WHOLE {
+            ledger.give_up();
             eprintln!("note: part {} is not done; run it again when its lessons are mended", self.shard);
             return Ok(failed);
         }
-        if failed > 0 && ledger.is_empty() {
+        if failed.count > 0 && ledger.is_empty() {
             return Ok(failed);
         }
         ledger.close().map_err(|f| f.help("choose another place with --out DIR"))?;
         Ok(failed)
     }
 
-    /// One damaged lesson must not keep a course from being exported.
-    fn forgive(&self, project: &Path, fault: Fault, failed: &mut u32) -> Result<()> {
-        if !self.several || fault.is_of_the_call() || self.stop.load(Ordering::Relaxed) {
+    /// One lesson that is damaged, or has no such clip or frame, must not keep a course from being exported.
+    fn forgive(&self, project: &Path, fault: Fault, failed: &mut Failed) -> Result<()> {
+        if !self.several || self.stop.load(Ordering::Relaxed) {
             return Err(fault);
         }
         eprintln!("error: {}: {fault}", project.display());
-        *failed += 1;
+        failed.count += 1;
+        failed.of_the_call += u32::from(fault.is_of_the_call());
         Ok(())
     }
 
     /// What of each lesson is to be done here. In a divided export all lessons are looked at first, so that every part
     /// knows of the others; lessons are not kept in memory.
-    fn shares<'p>(&self, projects: &'p [PathBuf], ledger: &mut Ledger, failed: &mut u32) -> Result<Vec<Work<'p>>> {
+    fn shares<'p>(&self, projects: &'p [PathBuf], ledger: &mut Ledger, failed: &mut Failed) -> Result<Vec<Work<'p>>> {
         if self.shard == Shard::WHOLE {
             return Ok(projects.iter().map(|p| (p.as_path(), None)).collect());
         }

@@ -8,18 +8,21 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use self::course::Course;
+use self::course::{Course, Failed};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::export::{Dedupe, Format, FrameSet, Request, Shard, shard_of_array};
 use crate::figure::Widths;
+use crate::project::{Output, check_output};
 
-/// Write lessons as frames, subtitles, pages, books and what other programs read. Run again, it only writes what is missing or has changed.
+/// Write lessons as frames, subtitles, pages, books, videos and for other programs.
+///
+/// Run again, it only writes what is missing or has changed. `manifest.json` beside the files lists them with checksums.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
-    projects: Vec<PathBuf>,
+    pub(super) projects: Vec<PathBuf>,
     /// The forms, with commas between them. Frames: svg, png. Moving: mp4, webm, gif, apng, smil (an animated SVG), lottie. Whole: html (a page that plays
     /// the lesson), epub, layers. Times: textgrid, srt, vtt, rhubarb, moho. And wav, ratios, lpr, poses, mouths.
     #[arg(long = "to", value_name = "FORMAT", required = true, value_delimiter = ',')]
@@ -30,7 +33,8 @@ pub struct Args {
     /// Where the files go; PROJECT/export where left out.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Which frames, counted from 0, the last one included: 0-24 or 0-24,50-74.
+    /// Which frames, counted from 0, the last one included: 0-24 or 0-24,50-74. For svg, png, poses and moving pictures; other
+    /// forms hold the whole clip.
     #[arg(long, value_name = "A-B")]
     frames: Option<FrameSet>,
     /// One part of everything, counted from 1: 2/3 is the second of three. In a Slurm job array the task's own where left out;
@@ -84,11 +88,46 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             shard_of_array()?.inspect(|s| eprintln!("note: part {s}, as this job array has it")).unwrap_or(Shard::WHOLE)
         }
     };
-    let request = Request {
+    let request = request_of(args, projects.len() > 1);
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        // A second signal ends the program at once: every file is whole at any moment.
+        let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
+        let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
+    }
+    check_names(&projects, args)?;
+    let course = Course { request: &request, shard, several: projects.len() > 1, stop: &stop, json: args.json };
+    check_settings(args)?;
+    let mut failed = Failed::default();
+    let mut add = |more: Failed| {
+        failed.count += more.count;
+        failed.of_the_call += more.of_the_call;
+    };
+    match &args.out {
+        Some(_) => add(course.export(&projects, out)?),
+        // Each in its own folder, with a manifest of its own.
+        None => {
+            for project in &projects {
+                add(course.export(std::slice::from_ref(project), out)?);
+            }
+        }
+    }
+    if failed.count == 0 {
+        return Ok(());
+    }
+    let fault = Fault::new(format!("{} of {} projects could not be exported", failed.count, projects.len()))
+        .help("the reasons are above; run it again when they are mended");
+    let none_fits = failed.of_the_call as usize == projects.len();
+    Err(if none_fits { fault.of_the_call() } else { fault })
+}
+
+/// What is asked of every lesson.
+pub(super) fn request_of(args: &Args, by_project: bool) -> Request {
+    Request {
         formats: distinct(&args.formats),
         clip: args.clip.clone(),
         out: args.out.clone(),
-        by_project: projects.len() > 1,
+        by_project,
         frames: args.frames.clone().unwrap_or_default(),
         shares: None,
         size: args.size,
@@ -98,31 +137,14 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         dedupe: args.dedupe,
         jobs: args.jobs.into(),
         thesis: args.thesis,
-    };
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        // A second signal ends the program at once: every file is whole at any moment.
-        let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
-        let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
     }
-    check_names(&projects, args)?;
-    let course = Course { request: &request, shard, several: projects.len() > 1, stop: &stop, json: args.json };
-    let failed = match &args.out {
-        Some(_) => course.export(&projects, out)?,
-        // Each in its own folder, with a manifest of its own.
-        None => {
-            let mut failed = 0;
-            for project in &projects {
-                failed += course.export(std::slice::from_ref(project), out)?;
-            }
-            failed
-        }
-    };
-    match failed {
-        0 => Ok(()),
-        n => Err(Fault::new(format!("{n} of {} projects could not be exported", projects.len()))
-            .help("the reasons are above; run it again when they are mended")),
-    }
+}
+
+/// What no lesson could be exported with is told once.
+fn check_settings(args: &Args) -> Result<()> {
+    let usual = Output::default();
+    let output = Output { fps: args.fps.unwrap_or(usual.fps), size: args.size.unwrap_or(usual.size) };
+    check_output(&output).map_err(Fault::of_the_call)
 }
 
 /// In the order given, each once.

@@ -69,7 +69,7 @@ impl Show {
                 say(place.path.display().to_string())?;
                 continue;
             }
-            let mut line = json!({ "project": project, "clip": place.clip, "path": place.path });
+            let mut line = json!({ "project": named(project), "clip": place.clip, "path": named(&place.path) });
             if place.frames > 0 {
                 line["frames"] = place.frames.into();
             }
@@ -77,7 +77,7 @@ impl Show {
         }
         let report = exported.report;
         if self.json {
-            let totals = json!({ "project": project, "written": report.written, "kept": report.kept,
+            let totals = json!({ "project": named(project), "written": report.written, "kept": report.kept,
                 "removed": report.removed, "bytes": report.bytes });
             return say(totals.to_string());
         }
@@ -89,4 +89,9 @@ impl Show {
         eprintln!("{} {files} written, {} already there{removed}", report.written, report.kept);
         Ok(())
     }
+}
+
+/// JSON has no names but those in UTF-8.
+fn named(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
 }

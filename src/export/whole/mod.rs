@@ -3,6 +3,7 @@
 
 mod base64;
 mod epub;
+mod fewer;
 mod flac;
 mod html;
 mod layers;
@@ -31,6 +32,9 @@ use crate::render::Escaped;
 use crate::script::System;
 use crate::timing::MOHO_FPS;
 use sound::Encoded;
+
+/// What a file is called that all clips are in.
+pub(super) const TOGETHER: &str = "lesson";
 
 /// Files that hold a clip or a lesson in one form, to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,7 +110,7 @@ pub fn wholes(lesson: &Lesson, request: &Request) -> Result<Vec<Whole>> {
         all.extend(together.map(|format| Whole {
             format: *format,
             clip: None,
-            base: out.join("lesson"),
+            base: out.join(TOGETHER),
             clips: clips.clone(),
         }));
     }
@@ -177,6 +181,7 @@ pub fn write_wholes(
             ledger.add([Entry::of(within(&root, &file.path), &file.bytes)]);
             written.paths.push(file.path);
         }
+        tell(whole, Progress { done: 1, of: 1 });
         done.push(written);
     }
     Ok(done)

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::base64::data_uri_of;
+use super::fewer::fewer;
 use crate::drawing::Colour;
 use crate::export::parts::{Mark, Path};
 use crate::geometry::Affine;
@@ -166,8 +167,7 @@ fn simpler(path: &Path) -> Option<Path> {
     if curves <= MANY {
         return None;
     }
-    let fewer = kurbo::simplify::simplify_bezpath(path.to_bez(), 1.0, &kurbo::simplify::SimplifyOptions::default());
-    Path::of(&fewer, Affine::IDENTITY).filter(|p| p.verbs.len() < path.verbs.len())
+    Path::of(&fewer(&path.to_bez(), 1.0), Affine::IDENTITY).filter(|p| p.verbs.len() < path.verbs.len())
 }
 
 /// The data of a path, relative.
