@@ -127,4 +127,21 @@ mod tests {
             assert!(read.len() > 3 * BLOCK && read == expected, "{from}");
         }
     }
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn one_frame_of_a_long_recording_takes_no_memory_for_the_rest() {
+        let peak = || -> u64 {
+            let status = std::fs::read_to_string("/proc/self/status").unwrap();
+            let line = status.lines().find(|l| l.starts_with("VmHWM:")).unwrap();
+            line.split_whitespace().nth(1).unwrap().parse().unwrap()
+        };
+        // Ten minutes: 38 MB as they are, 115 MB at the rate of a video.
+        let sound = Sound::new(16_000, vec![0.25; 16_000 * 600]);
+        let folder = tempfile::tempdir().unwrap();
+        let before = peak();
+        let file = sound_file(&folder.path().join("a.mp4"), &sound, &[(0, 1)], Rate::new(25.0).unwrap()).unwrap();
+        let grown = peak() - before;
+        assert_eq!(hound::WavReader::open(file.path()).unwrap().len(), 1920);
+        assert!(grown < 40_000, "{grown} kB");
+    }
 }
