@@ -14,3 +14,5 @@ trap 'rm -rf "$folder"' EXIT
 openjd check "$folder/job.yaml"
 openjd run "$folder/job.yaml"
 "$program" merge "$out"
+"$program" export "$course" --to "$formats" --out "$folder/plain" >/dev/null
+cmp "$folder/plain/manifest.json" "$out/manifest.json" && echo "a plain export has the same manifest"

@@ -15,8 +15,11 @@ trap 'rm -rf "$folder"' EXIT
 setsid sh "$folder/job.sh" &
 session=$!
 sleep "${KILL_AFTER:-5}"
-pkill -KILL -s "$session" || echo "it was done before it was killed"
+pkill -KILL -s "$session" || { echo "it was done before it was killed: set KILL_AFTER to fewer seconds" >&2; exit 1; }
 wait "$session" || :
 echo "killed with $(find "$out" -name '*.png' | wc -l) frames on disk"
 "$program" merge "$out" && echo "nothing was missing" || echo "the rest is made now"
 sh "$folder/job.sh"
+"$program" export "$course" --to "$formats" --out "$folder/plain" >/dev/null
+cmp "$folder/plain/manifest.json" "$out/manifest.json" && echo "a plain export has the same manifest"
+[ -z "$(find "$out" -name '.*' -type f)" ] || { echo "something is left over" >&2; exit 1; }
