@@ -340,3 +340,63 @@ fn a_lesson_without_the_clip_that_is_asked_for_does_not_stop_the_others() {
     assert_eq!(run.status.code(), Some(1));
     assert!(out.join("nihao/nihao.srt").exists() && out.join("manifest.json").exists());
 }
+
+#[test]
+fn merge_names_every_part_that_has_to_be_run_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for index in ["1/2", "2/2"] {
+        part(&sample("nihao"), &out, index, "png,srt").success();
+    }
+    std::fs::remove_file(out.join("nihao/000040.png")).unwrap();
+    std::fs::write(out.join("nihao.srt"), "mine").unwrap();
+    let (done, said) = merged(&out);
+    assert!(!done && said.contains("another file") && said.contains("--shard 1/2, and then 2/2"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn equal_frames_are_links_beside_svg_as_well_and_no_pipe_keeps_an_export_waiting() {
+    use std::os::unix::fs::MetadataExt;
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    std::fs::create_dir(&out).unwrap();
+    let pipe = std::process::Command::new("mkfifo").arg(out.join("nihao.srt")).status();
+    let mut command = lianpu();
+    command.arg("export").arg(sample("nihao")).args(["--to", "png,svg,srt", "--size", "96x54", "--out"]).arg(&out);
+    command.timeout(std::time::Duration::from_secs(60)).assert().success();
+    let inodes = |ending: &str| {
+        let files = std::fs::read_dir(out.join("nihao")).unwrap().flatten();
+        let own = files.filter(|f| f.path().extension().is_some_and(|e| e == ending));
+        own.map(|f| f.metadata().unwrap().ino()).collect::<BTreeSet<u64>>().len()
+    };
+    assert_eq!(inodes("svg"), 44, "each says its time");
+    assert!(inodes("png") < 44 || pipe.is_err());
+    assert!(out.join("nihao.srt").is_file());
+}
+
+#[test]
+fn subtitles_keep_the_marks_of_what_is_said_and_verses_their_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let (lesson, out) = (folder.path().join("lesson"), folder.path().join("out"));
+    copy(&sample("nihao"), &lesson);
+    std::fs::remove_file(lesson.join("clips/nihao/timing.TextGrid")).unwrap();
+    std::fs::write(lesson.join("clips/nihao/script.txt"), "“您好！”他说：《红楼梦》\n床前明月光\n疑是地上霜").unwrap();
+    lianpu().arg("export").arg(&lesson).args(["--to", "srt,vtt,html", "--out"]).arg(&out).assert().success();
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let cues: Vec<String> =
+        read("nihao.srt").lines().filter(|l| l.chars().any(|c| c > '\u{2000}')).map(str::to_owned).collect();
+    assert_eq!(cues.join("|"), "“您好！”|他说：|《红楼梦》|床前明月光|疑是地上霜");
+    let plain = |line: &str| {
+        let mut inside = false;
+        line.chars()
+            .filter(|c| {
+                inside = (inside || *c == '<') && *c != '>';
+                !inside && *c != '>'
+            })
+            .collect::<String>()
+    };
+    let in_vtt: Vec<String> =
+        read("nihao.vtt").lines().filter(|l| l.chars().any(|c| c > '\u{2000}')).map(plain).collect();
+    assert_eq!(cues, in_vtt);
+}

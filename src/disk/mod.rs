@@ -12,7 +12,7 @@ mod write;
 
 pub use fault::{Fault, Result};
 pub use paths::{inside, plain_name};
-pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_text};
+pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
 pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};
 pub use toml::{from_toml, nearest};
 pub use write::{Lock, put_whole, replace, write_whole};

@@ -84,7 +84,7 @@ mod tests {
             end: start + 0.2,
         };
         let pieces = vec![piece("你", "", 1.0), piece("好", "", 1.25), piece("吗", "？", 1.25)];
-        Phrase { start: 1.0, end: 2.0, sentence: 0, ends_line: false, pieces }
+        Phrase { start: 1.0, end: 2.0, sentence: 0, pieces }
     }
 
     #[test]

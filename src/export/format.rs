@@ -133,7 +133,10 @@ impl Format {
 impl FromStr for Format {
     type Err = String;
 
+    /// Blanks around it and large letters do not matter.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let text = text.trim().to_lowercase();
+        let text = text.as_str();
         Self::ALL.into_iter().find(|f| f.name() == text).ok_or_else(|| {
             let known = Self::ALL.map(Self::name);
             let near = nearest(text, &known).map(|n| format!("did you mean `{n}`? ")).unwrap_or_default();

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::Shard;
-use crate::disk::{Fault, Result, read_bytes, write_whole};
+use crate::disk::{Fault, Result, read_bytes, read_old, write_whole};
 
 /// The largest manifest that is read: a million frames have 150 MB.
 const MAX_BYTES: u64 = 1 << 30;
@@ -258,7 +258,7 @@ impl Manifest {
     pub(super) fn write_as(&self, folder: &Path, name: &str) -> Result<()> {
         let path = folder.join(name);
         let text = self.to_json()?;
-        if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
+        if read_old(&path).is_some_and(|old| old == text.as_bytes()) {
             return Ok(());
         }
         write_whole(&path, text.as_bytes())

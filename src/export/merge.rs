@@ -200,20 +200,33 @@ fn check_asked(folder: &Path, first: &Manifest, files: &[Entry], count: u32) -> 
 
 /// That every file is there as it was written.
 fn check_files(folder: &Path, files: &[Entry], owner: impl Fn(&str) -> Option<Shard> + Sync) -> Result<()> {
-    let wrong = |entry: &Entry| {
-        let found = Entry::read(folder, entry.path.clone());
-        let what = match found {
+    let wrong = |entry: &Entry| -> Option<&'static str> {
+        let what = match Entry::read(folder, entry.path.clone()) {
             Ok(now) if now.bytes == entry.bytes && now.sha256 == entry.sha256 => return None,
             Ok(_) => "it is not as it was written",
             Err(_) if !folder.join(&entry.path).exists() => "it was written, but is missing",
             Err(_) => "it cannot be read",
         };
-        let help = owner(&entry.path).map_or_else(|| "run the export again".to_owned(), again);
-        Some(Fault::new(what).at(folder.join(&entry.path)).help(help))
+        Some(what)
     };
-    // The first in order, whichever thread finds one first.
-    match files.par_iter().find_map_first(wrong) {
-        Some(fault) => Err(fault),
-        None => Ok(()),
-    }
+    // In order, whichever thread finds which.
+    let found: Vec<(&Entry, &str)> = files.par_iter().filter_map(|entry| Some((entry, wrong(entry)?))).collect();
+    let Some((first, what)) = found.first() else { return Ok(()) };
+    let what = match found.len() {
+        1 => (*what).to_owned(),
+        2 => format!("{what}, and another file is gone or changed"),
+        n => format!("{what}, and {} other files are gone or changed", n - 1),
+    };
+    let mut shards: Vec<Shard> = found.iter().filter_map(|(entry, _)| owner(&entry.path)).collect();
+    shards.sort_by_key(|s| s.index());
+    shards.dedup();
+    let help = match &shards[..] {
+        [] => "run the export again".to_owned(),
+        [one] => again(*one),
+        [first, more @ ..] => {
+            let more: Vec<String> = more.iter().map(Shard::to_string).collect();
+            format!("run the same export with --shard {first}, and then {}, then merge again", more.join(", "))
+        }
+    };
+    Err(Fault::new(what).at(folder.join(&first.path)).help(help))
 }

@@ -247,7 +247,7 @@ fn job(
             Times::Vtt => captions::vtt(&said::phrases(clip)),
             Times::KaraokeSrt => captions::karaoke_srt(&said::phrases(clip)),
             Times::Srt => {
-                let phrases = Timing { duration: clip.duration(), tiers: vec![clip.phrases()], guessed: false };
+                let phrases = Timing { duration: clip.duration(), tiers: vec![said::captions(clip)], guessed: false };
                 crate::timing::write(&phrases, crate::timing::Format::Srt)
             }
             Times::Poses => poses::to_csv(&timeline, &asked),

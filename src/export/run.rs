@@ -10,7 +10,7 @@ use super::asked::within;
 use super::digests::Digests;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Entry, Format, Job};
-use crate::disk::{Fault, Result, replace, write_whole};
+use crate::disk::{Fault, Result, read_old, replace, write_whole};
 use crate::drawing::Drawing;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
 
@@ -59,7 +59,7 @@ pub fn run(
     for job in jobs {
         for (path, text) in &job.texts {
             files.push(Entry::of(within(&job.root, path), text.as_bytes()));
-            if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+            if read_old(path).is_some_and(|old| old == text.as_bytes()) {
                 report.kept += 1;
             } else {
                 write_whole(path, text.as_bytes()).map_err(elsewhere)?;
@@ -152,55 +152,77 @@ fn write_frames(
     progress: &(dyn Fn(Progress) + Sync),
     stop: &AtomicBool,
 ) -> Result<Vec<Entry>> {
-    let svg = job.formats.contains(&Format::Svg);
-    let png = job.formats.contains(&Format::Png);
+    let mut files = Vec::new();
+    if job.formats.contains(&Format::Svg) {
+        // An SVG says its time, so no two are equal.
+        let steps = !job.formats.contains(&Format::Png);
+        files = by_stretches(&job.frames, stop, |frame, digests: &mut Digests| {
+            let path = job.path_of(frame, Format::Svg);
+            let text = to_svg(&job.drawing(frame), job.size[0], job.size[1]).into_bytes();
+            let right = read_old(&path).filter(|old| *old == text);
+            let entry = tally.keep_or_write(job, &path, right, digests, || Ok(text));
+            if steps {
+                tally.step(progress);
+            }
+            entry
+        })?;
+    }
+    if job.formats.contains(&Format::Png) {
+        files.extend(write_pngs(job, tally, progress, stop)?);
+    }
+    Ok(files)
+}
+
+/// Calls `each` for frames on all threads, with something that the frames of a stretch share.
+fn by_stretches<S: Default, T: Send>(
+    frames: &[u32],
+    stop: &AtomicBool,
+    each: impl Fn(u32, &mut S) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    let stretch = frames.len().div_ceil(rayon::current_num_threads()).max(1);
+    let stretches: Vec<Vec<T>> = frames
+        .par_chunks(stretch)
+        .map(|frames| {
+            let mut shared = S::default();
+            let going = frames.iter().take_while(|_| !stop.load(Ordering::Relaxed));
+            going.map(|frame| each(*frame, &mut shared)).collect()
+        })
+        .collect::<Result<_>>()?;
+    Ok(stretches.into_iter().flatten().collect())
+}
+
+/// What a thread needs for its PNG files.
+#[derive(Default)]
+struct Desk<'a> {
+    coder: Option<FrameCoder<'a>>,
+    file: Vec<u8>,
+    digests: Digests,
+}
+
+/// Of frames that are equal the first is written, and then the others.
+fn write_pngs(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), stop: &AtomicBool) -> Result<Vec<Entry>> {
     let pose = |frame| rounded(&job.timeline.pose(job.timeline.time_of(frame)));
-    // An SVG says its time, so no two are equal.
     let frames = match job.dedupe {
         Dedupe::None => Repeats { first: job.frames.clone(), others: Vec::new() },
-        _ if svg => Repeats { first: job.frames.clone(), others: Vec::new() },
         _ => Repeats::of(&job.frames, pose),
     };
     let clip = ClipOf { job, coder: OnceLock::new() };
-    let stretch = frames.first.len().div_ceil(rayon::current_num_threads()).max(1);
-    let stretches: Vec<(Vec<Entry>, Vec<Made>)> = frames
-        .first
-        .par_chunks(stretch)
-        .map(|stretch| {
-            let (mut coder, mut file, mut digests) = (None, Vec::new(), Digests::default());
-            let (mut vectors, mut rasters) = (Vec::new(), Vec::with_capacity(stretch.len()));
-            for frame in stretch {
-                if stop.load(Ordering::Relaxed) {
-                    break;
-                }
-                let drawing = job.drawing(*frame);
-                if svg {
-                    let path = job.path_of(*frame, Format::Svg);
-                    let text = to_svg(&drawing, job.size[0], job.size[1]).into_bytes();
-                    let right = std::fs::read(&path).ok().filter(|old| *old == text);
-                    vectors.push(tally.keep_or_write(job, &path, right, &mut digests, || Ok(text))?);
-                }
-                if png {
-                    let path = job.path_of(*frame, Format::Png);
-                    let key = key_of(&drawing, job.size);
-                    let right = with_key(&path, &key);
-                    let entry = tally.keep_or_write(job, &path, right, &mut digests, || {
-                        clip.encode(&mut coder, &drawing, &key, &mut file)?;
-                        Ok(&file)
-                    })?;
-                    rasters.push(Made { key, entry });
-                }
-                tally.step(progress);
-            }
-            Ok((vectors, rasters))
-        })
-        .collect::<Result<_>>()?;
-    let (vectors, rasters): (Vec<Vec<Entry>>, Vec<Vec<Made>>) = stretches.into_iter().unzip();
-    let mut files: Vec<Entry> = vectors.into_iter().flatten().collect();
+    let made: Vec<Made> = by_stretches(&frames.first, stop, |frame, desk: &mut Desk<'_>| {
+        let drawing = job.drawing(frame);
+        let path = job.path_of(frame, Format::Png);
+        let key = key_of(&drawing, job.size);
+        let right = with_key(&path, &key);
+        let Desk { coder, file, digests } = desk;
+        let entry = tally.keep_or_write(job, &path, right, digests, || {
+            clip.encode(coder, &drawing, &key, file)?;
+            Ok(&*file)
+        })?;
+        tally.step(progress);
+        Ok(Made { key, entry })
+    })?;
     if stop.load(Ordering::Relaxed) {
-        return Ok(files);
+        return Ok(made.into_iter().map(|m| m.entry).collect());
     }
-    let made: Vec<Made> = rasters.into_iter().flatten().collect();
     let others = frames.others.par_iter().map(|(frame, like)| {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
@@ -225,8 +247,7 @@ fn write_frames(
         Ok(Some(entry))
     });
     let others: Vec<Option<Entry>> = others.collect::<Result<_>>()?;
-    files.extend(made.into_iter().map(|m| m.entry).chain(others.into_iter().flatten()));
-    Ok(files)
+    Ok(made.into_iter().map(|m| m.entry).chain(others.into_iter().flatten()).collect())
 }
 
 /// A PNG file that is there.
@@ -278,7 +299,7 @@ impl ClipOf<'_> {
 
 /// A file that is a whole PNG with that key.
 fn with_key(path: &Path, key: &str) -> Option<Vec<u8>> {
-    std::fs::read(path).ok().filter(|old| decode_key(old).as_deref() == Some(key))
+    read_old(path).filter(|old| decode_key(old).as_deref() == Some(key))
 }
 
 /// Says what a PNG shows and what made it: the drawing, the size, and this version of the program and its renderer.
@@ -305,7 +326,7 @@ fn remove_left_over(job: &Job) -> u32 {
 }
 
 fn is_our_own(path: &Path, extension: &str) -> bool {
-    let Ok(bytes) = std::fs::read(path) else { return false };
+    let Some(bytes) = read_old(path) else { return false };
     match extension {
         "png" => decode_key(&bytes).is_some(),
         _ => String::from_utf8_lossy(&bytes).contains("<g id=\"dynamic\">"),

@@ -2,7 +2,7 @@
 
 use crate::project::Clip;
 use crate::script::{self, Lang, Pause, Syllable};
-use crate::timing::Interval;
+use crate::timing::{Interval, Tier};
 
 /// Marks that belong to what follows them.
 const OPENING: &str = "“‘「『《〈（([【〔";
@@ -16,8 +16,6 @@ pub(super) struct Phrase {
     pub end: f64,
     /// Which sentence of the clip it belongs to, from 0.
     pub sentence: u32,
-    /// Whether a new line begins after it in the script.
-    pub ends_line: bool,
     /// In order.
     pub pieces: Vec<Piece>,
 }
@@ -86,14 +84,14 @@ pub(super) fn phrases(clip: &Clip) -> Vec<Phrase> {
         let begins = starts.get(next_start).is_some_and(|s| piece.start >= s - 1e-9);
         if begins || phrases.is_empty() {
             next_start = starts.partition_point(|s| *s <= piece.start + 1e-9);
-            phrases.push(Phrase { start: piece.start, end: piece.end, sentence, ends_line: false, pieces: Vec::new() });
+            phrases.push(Phrase { start: piece.start, end: piece.end, sentence, pieces: Vec::new() });
         }
         if let Some(phrase) = phrases.last_mut() {
             phrase.end = piece.end;
-            phrase.ends_line = between.contains('\n') && at < said.len();
             phrase.pieces.push(piece);
         }
-        if last.0.pause_after == Pause::Sentence {
+        // Verses have no full stops.
+        if last.0.pause_after == Pause::Sentence || between.contains('\n') {
             sentence += 1;
         }
     }
@@ -114,6 +112,13 @@ pub(super) fn language<'a>(phrases: impl IntoIterator<Item = &'a Phrase>, title:
 const fn is_chinese(c: char) -> bool {
     matches!(c, '\u{3105}'..='\u{312F}' | '\u{31A0}'..='\u{31BF}' | '\u{3400}'..='\u{4DBF}' | '\u{4E00}'..='\u{9FFF}'
         | '\u{F900}'..='\u{FAFF}' | '\u{20000}'..='\u{3FFFD}')
+}
+
+/// The phrases of a clip with their times, as subtitles have them.
+pub(super) fn captions(clip: &Clip) -> Tier {
+    let mut tier = Tier::new("phrases");
+    tier.intervals = phrases(clip).iter().map(|p| Interval::new(p.start, p.end, p.text())).collect();
+    tier
 }
 
 /// What stands between two pieces: what belongs to the first, and what to the second.
@@ -157,7 +162,7 @@ mod tests {
                 end: 1.0,
             };
             let pieces = english.iter().map(piece).collect();
-            Phrase { start: 0.0, end: 1.0, sentence: 0, ends_line: false, pieces }
+            Phrase { start: 0.0, end: 1.0, sentence: 0, pieces }
         };
         let (en, mixed, none) = (phrase(&[true, true]), phrase(&[true, false]), phrase(&[]));
         assert_eq!(language([&en, &none], "您好"), "en");

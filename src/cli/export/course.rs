@@ -100,6 +100,7 @@ impl Course<'_> {
         crate::cli::align::find_missing(&mut lesson, &wanted);
         for clip in lesson.clips.iter().filter(|c| request.clip.as_ref().is_none_or(|name| c.entry.name == *name)) {
             note_guess(clip);
+            note_sound(clip);
         }
         for face in lesson.faces.iter().filter(|f| f.looks_each_time()) {
             eprintln!(
@@ -121,7 +122,7 @@ impl Course<'_> {
         if request.shares.is_none() {
             ledger.ask(clips);
         }
-        show.result(project, &exported, out)
+        show.result(project, self.several, &exported, out)
     }
 }
 
@@ -141,5 +142,19 @@ fn wanted(lesson: &Lesson, request: &Request) -> Vec<usize> {
 fn note_guess(clip: &Clip) {
     if clip.timing.guessed && !clip.syllables.is_empty() {
         eprintln!("note: the times of clip {} are guessed; set them in the studio", clip.entry.name);
+    }
+}
+
+/// What was wrong with a recording, and what it does not hold of what is said.
+fn note_sound(clip: &Clip) {
+    let Some(sound) = &clip.sound else { return };
+    let name = &clip.entry.name;
+    for warning in &sound.warnings {
+        eprintln!("note: the recording of clip {name}: {warning}");
+    }
+    let end = sound.duration();
+    // Rounded times may end a hair later.
+    if let Some(over) = clip.intervals().iter().find(|i| i.end > end + 0.01) {
+        eprintln!("note: `{}` of clip {name} ends at {:.2} s, its recording at {end:.2} s", over.label, over.end);
     }
 }

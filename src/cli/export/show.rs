@@ -61,8 +61,8 @@ impl Show {
         self.bar.finish_and_clear();
     }
 
-    /// Prints where everything is.
-    pub(super) fn result(&self, project: &Path, exported: &Exported, out: &mut dyn Write) -> Result<()> {
+    /// Prints where everything is; where there are several lessons, of which one.
+    pub(super) fn result(&self, project: &Path, several: bool, exported: &Exported, out: &mut dyn Write) -> Result<()> {
         let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
         for place in &exported.places {
             if !self.json {
@@ -86,7 +86,8 @@ impl Show {
             n => format!(", {n} left over from a longer export removed"),
         };
         let files = if report.written == 1 { "file" } else { "files" };
-        eprintln!("{} {files} written, {} already there{removed}", report.written, report.kept);
+        let whose = if several { format!("{}: ", project.display()) } else { String::new() };
+        eprintln!("{whose}{} {files} written, {} already there{removed}", report.written, report.kept);
         Ok(())
     }
 }

@@ -26,7 +26,7 @@ use super::asked::within;
 use super::parts::{self, Parts};
 use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
 use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
-use crate::disk::{Result, write_whole};
+use crate::disk::{Result, read_old, write_whole};
 use crate::project::{Clip, Lesson, Output};
 use crate::render::Escaped;
 use crate::script::System;
@@ -171,7 +171,7 @@ pub fn write_wholes(
         }
         let mut written = Written::default();
         for file in workshop.make(whole, &mut written.notes)? {
-            if std::fs::read(&file.path).is_ok_and(|old| old == file.bytes) {
+            if read_old(&file.path).is_some_and(|old| old == file.bytes) {
                 written.report.kept += 1;
             } else {
                 write_whole(&file.path, &file.bytes).map_err(|f| f.help("choose another place with --out DIR"))?;

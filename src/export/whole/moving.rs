@@ -12,7 +12,7 @@ use crate::export::apng::{self, ApngForm, Depth};
 use crate::export::gif::{self, GifForm};
 use crate::export::manifest::hex;
 use crate::export::movie::{self, Container, Film};
-use crate::export::{Format, Frames, Job, Ledger, Outcome, Watch};
+use crate::export::{Format, Frames, Job, Ledger, Outcome, Watch, said};
 use crate::project::Clip;
 use crate::render::{Picture, REVISION, Reel};
 use crate::timing::{self, Tier, Timing};
@@ -55,7 +55,7 @@ impl Moving<'_> {
     /// # Errors
     /// When it cannot be written.
     pub(super) fn write(&self, path: &Path, ledger: &mut Ledger, watch: &Watch<'_>) -> Result<Option<Written>> {
-        let captions = self.clip.phrases();
+        let captions = said::captions(self.clip);
         let key = self.key(&captions);
         let mut written = Written { paths: vec![path.to_owned()], ..Written::default() };
         if self.format == Format::Mp4 && !self.is_opaque() {
