@@ -154,7 +154,8 @@ fn moving_pictures_are_kept_while_they_show_the_same() {
     assert_eq!(counts(&fifth), (2, 0));
     let left: BTreeSet<String> =
         std::fs::read_dir(out).unwrap().flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
-    assert_eq!(left, ["manifest.json", "nihao.apng", "nihao.gif"].map(String::from).into());
+    // What was damaged may have been somebody's work.
+    assert_eq!(left, ["manifest.json", "nihao.apng", "nihao.gif", "nihao.gif~"].map(String::from).into());
 }
 
 #[test]
@@ -399,4 +400,23 @@ fn subtitles_keep_the_marks_of_what_is_said_and_verses_their_lines() {
     let in_vtt: Vec<String> =
         read("nihao.vtt").lines().filter(|l| l.chars().any(|c| c > '\u{2000}')).map(plain).collect();
     assert_eq!(cues, in_vtt);
+}
+
+#[test]
+fn what_somebody_has_changed_is_kept_beside_what_is_written_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let export = || {
+        let mut command = lianpu();
+        command.arg("export").arg(sample("nihao")).args(["--to", "srt,wav", "--out"]).arg(&out);
+        String::from_utf8(command.assert().success().get_output().stderr.clone()).unwrap()
+    };
+    assert!(!export().contains('~'));
+    std::fs::write(out.join("nihao.srt"), "mine").unwrap();
+    std::fs::remove_file(out.join("nihao.wav")).unwrap();
+    let said = export();
+    assert!(said.contains("nihao.srt was changed") && !said.contains("wav was"), "{said}");
+    assert_eq!(std::fs::read(out.join("nihao.srt~")).unwrap(), b"mine");
+    assert_ne!(std::fs::read(out.join("nihao.srt")).unwrap(), b"mine");
+    assert!(!export().contains('~'));
 }

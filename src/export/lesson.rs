@@ -57,10 +57,14 @@ pub fn export(
     // What a run that was killed has left half done.
     clear_temporaries(&out_folder(lesson, request));
     jobs.iter().for_each(|job| clear_temporaries(&job.folder));
+    let mut notes = Vec::new();
+    for (path, text) in jobs.iter().flat_map(|job| &job.texts) {
+        notes.extend(ledger.set_aside(path, Some(text.as_bytes()))?);
+    }
     let (report, files) = run(&jobs, request.jobs, &|p| tell(Step::Frames(p)), stop)?;
     ledger.add(files);
     let made = write_wholes(lesson, request, &whole, ledger, &|whole, p| tell(Step::Whole(whole, p)), stop)?;
-    let mut exported = Exported { report: report.with(&made), ..Exported::default() };
+    let mut exported = Exported { report: report.with(&made), notes, ..Exported::default() };
     exported.report.stopped |= made.len() < whole.len();
     if !request.frames.is_all() {
         exported.notes.extend(note_on_frames(request));
