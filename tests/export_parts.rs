@@ -420,3 +420,13 @@ fn what_somebody_has_changed_is_kept_beside_what_is_written_anew() {
     assert_ne!(std::fs::read(out.join("nihao.srt")).unwrap(), b"mine");
     assert!(!export().contains('~'));
 }
+
+#[test]
+fn without_ffmpeg_a_video_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let run =
+        lianpu().arg("export").arg(sample("nihao")).args(["--to", "srt,mp4,html", "--out"]).arg(&out).output().unwrap();
+    let said = String::from_utf8(run.stderr).unwrap();
+    assert!(!run.status.success() && !out.exists() && said.contains("`ffmpeg`"), "{said}");
+}

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::plan::out_folder;
-use super::{Format, Ledger, Progress, Report, Request, Whole, plan, run, wholes, write_wholes};
+use super::{Format, Ledger, Progress, Report, Request, Whole, movie, plan, run, wholes, write_wholes};
 use crate::disk::{Result, clear_temporaries};
 use crate::project::Lesson;
 
@@ -54,6 +54,9 @@ pub fn export(
 ) -> Result<Exported> {
     let jobs = plan(lesson, request)?;
     let whole = wholes(lesson, request)?;
+    if whole.iter().any(|w| matches!(w.format, Format::Mp4 | Format::Webm)) {
+        movie::is_there()?;
+    }
     // What a run that was killed has left half done.
     clear_temporaries(&out_folder(lesson, request));
     jobs.iter().for_each(|job| clear_temporaries(&job.folder));

@@ -17,6 +17,24 @@ pub(super) struct Ffmpeg {
     errors: Option<JoinHandle<String>>,
 }
 
+/// Whether a video can be made: known before anything else is.
+///
+/// # Errors
+/// When the program is not on the PATH.
+pub(in crate::export) fn is_there() -> Result<()> {
+    let mut command = Command::new("ffmpeg");
+    command.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().map(drop).map_err(|e| not_started(&e))
+}
+
+fn not_started(error: &std::io::Error) -> Fault {
+    match error.kind() {
+        ErrorKind::NotFound => Fault::new("video needs the program `ffmpeg`, which is not here")
+            .help("install it (Debian: apt install ffmpeg), or export gif, apng or png, which need none"),
+        _ => Fault::new(format!("`ffmpeg` cannot be started: {error}")).help("does `ffmpeg -version` work?"),
+    }
+}
+
 impl Ffmpeg {
     /// Starts the one on the PATH.
     pub(super) fn start(arguments: &[OsString]) -> Result<Self> {
@@ -30,11 +48,7 @@ impl Ffmpeg {
             // Ctrl-C is for us: we end it ourselves, or let it finish.
             command.process_group(0);
         }
-        let mut child = command.spawn().map_err(|e| match e.kind() {
-            ErrorKind::NotFound => Fault::new("video needs the program `ffmpeg`, which is not here")
-                .help("install it (Debian: apt install ffmpeg), or export gif, apng or png, which need none"),
-            _ => Fault::new(format!("`ffmpeg` cannot be started: {e}")).help("does `ffmpeg -version` work?"),
-        })?;
+        let mut child = command.spawn().map_err(|e| not_started(&e))?;
         let input = child.stdin.take();
         let errors = child.stderr.take().map(|mut pipe| {
             std::thread::spawn(move || {

@@ -13,6 +13,7 @@ use std::io::Write;
 use std::path::Path;
 
 use self::ffmpeg::Ffmpeg;
+pub(super) use self::ffmpeg::is_there;
 use self::yuv::Planes;
 use super::cels::{Area, changed, pixels};
 use super::draft::{beside, write_fault};
