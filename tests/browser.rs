@@ -7,6 +7,7 @@
 
 #[path = "browser/chromium.rs"]
 mod chromium;
+mod two_clips;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -20,32 +21,7 @@ const SIZE: [u32; 2] = [640, 360];
 
 /// Two clips: 您好 as the sample says it, and a smile without a word.
 fn lesson() -> (tempfile::TempDir, Lesson) {
-    let folder = tempfile::tempdir().unwrap();
-    let root = folder.path();
-    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao");
-    let copy = |from: &str, to: &str| {
-        let to = root.join(to);
-        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
-        std::fs::copy(sample.join(from), to).unwrap();
-    };
-    copy("faces/teacher/face.toml", "faces/teacher/face.toml");
-    copy("faces/teacher/neutral.png", "faces/teacher/neutral.png");
-    for file in ["script.txt", "speech.wav", "timing.TextGrid", "score.toml"] {
-        copy(&format!("clips/nihao/{file}"), &format!("clips/你好/{file}"));
-    }
-    std::fs::create_dir_all(root.join("clips/smile")).unwrap();
-    let mut ratios = String::from("frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n");
-    for frame in 0..25 {
-        let happy = f64::from(frame) / 25.0;
-        ratios.push_str(&format!("{frame},{},{},{happy},0,0,0,0,0,1\n", f64::from(frame) * 0.04, 1.0 - happy));
-    }
-    std::fs::write(root.join("clips/smile/ratios.csv"), ratios).unwrap();
-    let manifest = "format = 1\ntitle = \"您好 & \\\"再見\\\"\"\n\n[[face]]\nname = \"teacher\"\nfigure = \"cartoon\"\n\n\
-                    [[clip]]\nname = \"你好\"\nscript_system = \"han\"\n\n[[clip]]\nname = \"smile\"\n\n\
-                    [output]\nfps = 25\nsize = [640, 360]\n";
-    std::fs::write(root.join("lianpu.toml"), manifest).unwrap();
-    let lesson = Lesson::read(root).unwrap();
-    (folder, lesson)
+    two_clips::lesson("您好 & \\\"再見\\\"", "你好", "smile", 25)
 }
 
 /// Writes one form of the lesson into a folder whose name a browser has to be told with care.

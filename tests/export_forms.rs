@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
+mod two_clips;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -15,38 +17,13 @@ use resvg::{tiny_skia, usvg};
 const TITLE: &str = "您好 & <b>\\\"再見\\\"</b> {{DATA}}\\uFFFE\\uFFFF";
 const TITLE_READ: &str = "您好 & <b>\"再見\"</b> {{DATA}}";
 
-/// A lesson of two clips: one that speaks, and one of moods alone, without sound or script.
+/// A lesson of two clips: one that speaks, and one of moods alone, whose head turns.
 fn lesson() -> (tempfile::TempDir, Lesson) {
-    let folder = tempfile::tempdir().unwrap();
-    let root = folder.path();
-    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao");
-    let copy = |from: &str, to: &str| {
-        let to = root.join(to);
-        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
-        std::fs::copy(sample.join(from), to).unwrap();
-    };
-    copy("faces/teacher/face.toml", "faces/teacher/face.toml");
-    copy("faces/teacher/neutral.png", "faces/teacher/neutral.png");
-    for file in ["script.txt", "speech.wav", "timing.TextGrid", "score.toml"] {
-        copy(&format!("clips/nihao/{file}"), &format!("clips/a.b_你好/{file}"));
-    }
-    std::fs::create_dir_all(root.join("clips/moods")).unwrap();
-    let mut ratios = String::from("frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n");
-    for frame in 0..20 {
-        let happy = f64::from(frame) / 20.0;
-        ratios.push_str(&format!("{frame},{},{},{happy},0,0,0,0,0,1\n", f64::from(frame) * 0.04, 1.0 - happy));
-    }
-    std::fs::write(root.join("clips/moods/ratios.csv"), ratios).unwrap();
+    let (folder, _) = two_clips::lesson(TITLE, "a.b_你好", "moods", 20);
     let score = "[[key]]\ntrack = \"head\"\ntime = 0.0\nvalue = [0.0, 0.0, 0.0]\n\n\
                  [[key]]\ntrack = \"head\"\ntime = 0.8\nvalue = [0.1, 0.05, 8.0]\n";
-    std::fs::write(root.join("clips/moods/score.toml"), score).unwrap();
-    let manifest = format!(
-        "format = 1\ntitle = \"{TITLE}\"\n\n[[face]]\nname = \"teacher\"\nfigure = \"cartoon\"\n\n\
-         [[clip]]\nname = \"a.b_你好\"\nscript_system = \"han\"\n\n[[clip]]\nname = \"moods\"\n\n\
-         [output]\nfps = 25\nsize = [640, 360]\n"
-    );
-    std::fs::write(root.join("lianpu.toml"), manifest).unwrap();
-    let lesson = Lesson::read(root).unwrap();
+    std::fs::write(folder.path().join("clips/moods/score.toml"), score).unwrap();
+    let lesson = Lesson::read(folder.path()).unwrap();
     (folder, lesson)
 }
 

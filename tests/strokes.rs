@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
 mod discs;
+mod inked;
 
 use discs::{Rows, reach};
 use lianpu::drawing::{Colour, Drawing, Item, Layer};
@@ -117,23 +118,10 @@ fn random() -> Vec<Ribbon> {
 
 /// The lines of a figure in every emotion, in the figure's own units.
 fn lines(figure: &str, widths: Widths) -> Vec<(String, Vec<Ribbon>)> {
-    fn collect(items: &[Item], lines: &mut Vec<(String, Vec<Ribbon>)>) {
-        for item in items {
-            match item {
-                Item::Ink(ink) => lines.push((ink.name.clone(), ink.strokes.clone())),
-                Item::Group(group) => collect(&group.items, lines),
-                Item::Shared(shared) => collect(shared.items(), lines),
-                _ => {}
-            }
-        }
-    }
     let figure = LineFigure::built_in(figure).unwrap().with_widths(widths);
     let mut all = Vec::new();
     for emotion in Emotion::ALL {
-        let mut lines = Vec::new();
-        for layer in figure.draw(&Pose::of(Ratios::pure(emotion))).layers {
-            collect(&layer.items, &mut lines);
-        }
+        let lines = inked::lines(&figure, &Pose::of(Ratios::pure(emotion)));
         all.extend(lines.into_iter().map(|(name, chain)| (format!("{emotion} {name}"), chain)));
     }
     all

@@ -2,31 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
+mod inked;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use lianpu::drawing::Item;
+use inked::lines;
 use lianpu::figure::{Figure, LineFigure, Widths};
-use lianpu::geometry::Ribbon;
 use lianpu::pose::{Emotion, Pose, Ratios};
-
-/// The lines of a drawing by the order in which they are drawn.
-fn lines(figure: &LineFigure, pose: &Pose) -> Vec<(String, Vec<Ribbon>)> {
-    fn collect(items: &[Item], lines: &mut Vec<(String, Vec<Ribbon>)>) {
-        for item in items {
-            match item {
-                Item::Ink(ink) => lines.push((ink.name.clone(), ink.strokes.clone())),
-                Item::Group(group) => collect(&group.items, lines),
-                Item::Shared(shared) => collect(shared.items(), lines),
-                _ => {}
-            }
-        }
-    }
-    let mut all = Vec::new();
-    figure.draw(pose).layers.iter().for_each(|layer| collect(&layer.items, &mut all));
-    all
-}
 
 #[test]
 fn in_the_paper_s_reading_a_width_is_between_those_of_the_adjacent_points() {
