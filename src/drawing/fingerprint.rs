@@ -1,7 +1,7 @@
 //! A number that tells one drawing from another, the same on every machine.
 
 use super::{Drawing, Item};
-use crate::geometry::{BezPath, PathEl, Point};
+use crate::geometry::{BezPath, Point, each_element};
 
 impl Drawing {
     /// 64 bits of everything that is drawn; titles are not. Drawings that look alike have equal ones.
@@ -59,17 +59,10 @@ impl Sum {
 
     fn path(&mut self, path: &BezPath) {
         self.word(path.elements().len() as u64);
-        for element in path.elements() {
-            let (kind, points): (u64, &[Point]) = match element {
-                PathEl::MoveTo(a) => (1, &[*a]),
-                PathEl::LineTo(a) => (2, &[*a]),
-                PathEl::QuadTo(a, b) => (3, &[*a, *b]),
-                PathEl::CurveTo(a, b, c) => (4, &[*a, *b, *c]),
-                PathEl::ClosePath => (5, &[]),
-            };
+        each_element(path, |kind, points| {
             self.word(kind);
             points.iter().for_each(|p| self.point(*p));
-        }
+        });
     }
 
     fn item(&mut self, item: &Item) {

@@ -22,6 +22,21 @@ pub use polygon::{cut_corner, cut_corners, simplify};
 pub use ribbon::{Knot, Ribbon};
 pub use spline::{equal_steps, flattened, spline};
 
+/// Calls `each` for every element of a path in order, with the number of its kind (move 1, line 2, quadratic 3, cubic 4,
+/// close 5) and its points: for sums that tell paths apart.
+#[inline]
+pub fn each_element(path: &BezPath, mut each: impl FnMut(u64, &[Point])) {
+    for element in path.elements() {
+        match *element {
+            PathEl::MoveTo(a) => each(1, &[a]),
+            PathEl::LineTo(a) => each(2, &[a]),
+            PathEl::QuadTo(a, b) => each(3, &[a, b]),
+            PathEl::CurveTo(a, b, c) => each(4, &[a, b, c]),
+            PathEl::ClosePath => each(5, &[]),
+        }
+    }
+}
+
 /// The cubic that leaves `a` with derivative `da` and reaches `b` with derivative `db` over a unit of parameter.
 #[must_use]
 pub fn hermite(a: Point, da: Vec2, b: Point, db: Vec2) -> CubicBez {

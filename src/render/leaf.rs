@@ -10,7 +10,7 @@ use super::raster::Sampler;
 use super::tiles::{Grid, Touch};
 use super::{FontFile, TOLERANCE, text_outline, text_width};
 use crate::drawing::{Anchor, Colour, Glow, Item, Text};
-use crate::geometry::{Affine, BezPath, PathEl, Point, Shape as _, Vec2, outline};
+use crate::geometry::{Affine, BezPath, Point, Shape as _, Vec2, each_element, outline};
 
 /// A thing ready to be painted.
 pub(super) struct Leaf {
@@ -139,17 +139,10 @@ fn put(item: &Item, print: &mut Print) {
 
 fn path(path: &BezPath, print: &mut Print) {
     print.word(path.elements().len() as u64);
-    for element in path.elements() {
-        let (kind, points): (u64, &[Point]) = match element {
-            PathEl::MoveTo(a) => (1, &[*a]),
-            PathEl::LineTo(a) => (2, &[*a]),
-            PathEl::QuadTo(a, b) => (3, &[*a, *b]),
-            PathEl::CurveTo(a, b, c) => (4, &[*a, *b, *c]),
-            PathEl::ClosePath => (5, &[]),
-        };
+    each_element(path, |kind, points| {
         print.word(kind);
         points.iter().for_each(|p| print.numbers(&[p.x, p.y]));
-    }
+    });
 }
 
 /// Calls `each` for everything in `items` that is one thing: shared things and groups without a clip are opened.
