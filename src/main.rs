@@ -17,7 +17,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(fault) if is_closed_pipe(&fault) => ExitCode::SUCCESS,
         Err(fault) => {
-            eprintln!("error: {fault}");
+            cli::report(&fault);
             ExitCode::from(if fault.is_of_the_call() { 2 } else { 1 })
         }
     }

@@ -290,8 +290,8 @@ fn times_and_shapes_are_read_back_as_they_were_written() {
     assert_eq!((old.rate, &old.samples), (new.rate, &new.samples), "the sound is the recording's");
     let table = text(folder.path().join("moods.ratios.csv"));
     assert_eq!(lianpu::emotion::Record::parse(&table).unwrap().rows.len(), 20);
-    let notes: Vec<&String> = written.iter().flat_map(|w| &w.notes).collect();
-    assert!(notes.iter().any(|n| n.contains("moods has no sound")), "{notes:?}");
+    let notes: Vec<&lianpu::disk::Message> = written.iter().flat_map(|w| &w.notes).collect();
+    assert!(notes.iter().any(|n| n.to_string().contains("moods has no sound")), "{notes:?}");
 }
 
 #[test]

@@ -209,7 +209,7 @@ fn done_or_said(project: &Path) -> String {
 
 fn studio(project: &Path) -> Studio {
     let state = State::new(project, Colours::True).unwrap();
-    let mut studio = Studio::new(state, Box::new(|_, _, _| Ok(String::new())));
+    let mut studio = Studio::new(state, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
     studio.key("Enter");
     studio.settle();
     studio.key("f");

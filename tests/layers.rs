@@ -69,3 +69,33 @@ fn every_room_opens_by_saying_what_it_owns() {
         assert!(text.starts_with("//! "), "{room}");
     }
 }
+
+/// Whether a line of code has a flag or a command of this program in a text.
+fn speaks_of_the_command_line(line: &str) -> bool {
+    let texts = line.split('"').skip(1).step_by(2);
+    texts.into_iter().any(|text| {
+        let flag = |word: &str| word.strip_prefix("--").is_some_and(|w| w.starts_with(|c: char| c.is_ascii_lowercase()));
+        text.contains("`lianpu ") || text.split([' ', '(', '`']).any(flag)
+    })
+}
+
+#[test]
+fn only_the_two_faces_speak_of_flags_commands_and_keys() {
+    let mut wrong = Vec::new();
+    // A job for an engine is made of commands; ffmpeg and dlib have flags of their own.
+    let others = ["farm.rs", "ffmpeg", "dlib.rs", "sound.rs"];
+    for room in rooms().iter().filter(|room| !matches!(room.as_str(), "studio" | "cli")) {
+        let mut files = Vec::new();
+        files_of(&root().join(room), &mut files);
+        for file in files.iter().filter(|f| others.iter().all(|o| !f.to_string_lossy().contains(o))) {
+            let text = fs::read_to_string(file).unwrap();
+            let own = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for (number, line) in own.lines().enumerate().filter(|(_, l)| !l.trim_start().starts_with("//")) {
+                if speaks_of_the_command_line(line) || line.contains("clap") {
+                    wrong.push(format!("{}:{}: {}", file.display(), number + 1, line.trim()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}

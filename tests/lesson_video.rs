@@ -118,5 +118,5 @@ fn a_calibration_outlives_its_photos() {
     }
     let (kept, notes) = Kept::of(&face).unwrap();
     assert_eq!(kept.fingerprint(), made.fingerprint());
-    assert!(notes.iter().any(|n| n.contains("as it was kept")), "{notes:?}");
+    assert!(notes.iter().any(|n| n.to_string().contains("as it was kept")), "{notes:?}");
 }

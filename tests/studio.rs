@@ -7,6 +7,7 @@ mod studio_bench;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use lianpu::export::{CourseReport, Format};
 use lianpu::disk::Fault;
 use lianpu::project::Lesson;
 use lianpu::studio::{Colours, ExportRequest, Exporter, Player, Progress, Show, State, Studio};
@@ -89,7 +90,7 @@ fn what_a_lost_connection_left_in_the_journal_is_brought_back() {
     bench.keys("] ]");
     let Bench { studio, dir } = bench;
     drop(studio);
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
     let mut bench = Bench { studio, dir };
     bench.keys("Enter");
     assert!(bench.message().contains("2 unsaved changes"), "{}", bench.message());
@@ -129,7 +130,7 @@ fn zooming_in_spreads_the_syllables_and_fit_shows_all_again() {
 #[test]
 fn an_export_shows_how_far_it_is_and_can_be_stopped() {
     let exporter: Exporter = Box::new(|request: ExportRequest, progress, cancel: &AtomicBool| {
-        assert_eq!((request.clip.as_deref(), request.formats.as_str()), (Some("nihao"), "png,srt"));
+        assert_eq!((request.clip.as_deref(), request.formats.as_slice()), (Some("nihao"), &[Format::Png, Format::Srt][..]));
         progress(Progress { done: 3, total: 40, what: "frames".into() });
         for _ in 0..500 {
             if cancel.load(Ordering::Relaxed) {
@@ -137,7 +138,7 @@ fn an_export_shows_how_far_it_is_and_can_be_stopped() {
             }
             std::thread::sleep(Duration::from_millis(10));
         }
-        Ok("never".into())
+        Ok(CourseReport::default())
     });
     let mut bench = Bench::with(Some(TIMES), &[], exporter);
     bench.keys("] e 'png jpg' Enter");
@@ -159,7 +160,7 @@ fn an_export_shows_how_far_it_is_and_can_be_stopped() {
 fn a_damaged_lesson_shows_what_is_wrong_and_where() {
     let dir = tempfile::tempdir().unwrap();
     lesson(&dir.path().join("nihao"), Some(TIMES), &[("score.toml", "[[key]]\ntrack = \"mouht\"\n")]);
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
     let mut bench = Bench { studio, dir };
     bench.keys("Enter Enter Enter s e u");
     let screen = bench.screen(80, 24);
@@ -171,7 +172,7 @@ fn a_damaged_lesson_shows_what_is_wrong_and_where() {
 fn a_second_studio_may_look_and_not_touch() {
     let mut first = Bench::new(Some(TIMES), &[]);
     let state = State::new(first.dir.path(), Colours::None).unwrap();
-    let mut second = Studio::new(state, Box::new(|_, _, _| Ok(String::new())));
+    let mut second = Studio::new(state, Box::new(|_, _, _| Ok(CourseReport::default())));
     for key in ["Enter", "Enter", "]"] {
         second.key(key);
         second.settle();
@@ -206,7 +207,7 @@ fn where_nothing_can_be_seen_no_key_but_quitting_does_anything_and_changes_wait_
     assert!(bench.studio.state.leaving);
     let Bench { studio, dir } = bench;
     drop(studio);
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
     let mut bench = Bench { studio, dir };
     assert!(bench.keys("Enter").message().contains("brought back 1 unsaved change from last time"));
 }

@@ -76,7 +76,7 @@ fn a_newer_search_takes_the_place_of_the_one_that_waits() {
         count.fetch_add(1, Ordering::SeqCst);
         vec![(0, Ok(found()))]
     });
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
     let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
     bench.keys("Enter Enter");
     for _ in 0..5 {
@@ -97,7 +97,7 @@ fn a_search_asked_for_in_another_lesson_waits_for_the_first_ones_end() {
         opened.lock().unwrap().recv().unwrap();
         vec![(0, Ok(found()))]
     });
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
     let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
     let open = |bench: &mut Bench| {
         bench.studio.key("Enter");
@@ -127,7 +127,7 @@ fn a_lesson_that_is_only_looked_at_is_not_aligned() {
     let clip = first.dir.path().join("nihao/clips/nihao/timing.TextGrid");
     std::fs::remove_file(clip).unwrap();
     let state = State::new(first.dir.path(), Colours::None).unwrap();
-    let studio = Studio::new(state, Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(state, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
     let mut second = studio.with_aligner(Aligner::new(|_| vec![(0, Ok(found()))]));
     for key in ["Enter", "Enter"] {
         second.key(key);
@@ -361,7 +361,7 @@ fn without_script() -> Bench {
     let dir = tempfile::tempdir().unwrap();
     lesson(&dir.path().join("nihao"), None, &[]);
     std::fs::remove_file(dir.path().join("nihao/clips/nihao/script.txt")).unwrap();
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(String::new())));
+    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
     let mut bench = Bench { studio, dir };
     bench.keys("Enter Enter");
     let editor = bench.studio.state.editor.as_mut().unwrap();

@@ -362,3 +362,68 @@ fn a_record_is_drawn_as_it_arrives_ends_with_its_pipe_and_says_when_it_was_cut()
     assert!(screen.contains("cut off after frame 39") && screen.contains("40 frames were played"), "{screen}");
     assert!(terminal.ends());
 }
+
+/// All files below a folder but manifests' own state, by path.
+fn files_in(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
+    let mut all = std::collections::BTreeMap::new();
+    for entry in std::fs::read_dir(folder).unwrap().flatten() {
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            all.extend(files_in(&entry.path()).into_iter().map(|(path, bytes)| (format!("{name}/{path}"), bytes)));
+        } else {
+            all.insert(name, std::fs::read(entry.path()).unwrap());
+        }
+    }
+    all
+}
+
+/// The sample lesson without times and score, exported before, and a subtitle of that export changed by hand.
+fn changed_lesson_without_times(parent: &Path) -> std::path::PathBuf {
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao");
+    let root = parent.join("nihao");
+    for (path, bytes) in files_in(&sample) {
+        if path.starts_with("export") || path.starts_with('.') || path.ends_with("score.toml") || path.ends_with("TextGrid") {
+            continue;
+        }
+        std::fs::create_dir_all(root.join(&path).parent().unwrap()).unwrap();
+        std::fs::write(root.join(&path), bytes).unwrap();
+    }
+    exported(&root);
+    std::fs::write(root.join("export/nihao.srt"), "1\n00:00:00,000 --> 00:00:01,000\nmine\n").unwrap();
+    root
+}
+
+/// Exports a project by the command line, without ffmpeg. Its notes.
+fn exported(root: &Path) -> Vec<String> {
+    let done = std::process::Command::new(env!("CARGO_BIN_EXE_lianpu"))
+        .args(["export", root.to_str().unwrap(), "--to", "srt,epub,html,vtt"])
+        .env("PATH", "/nonexistent")
+        .output()
+        .unwrap();
+    let errors = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.success(), "{errors}");
+    errors.lines().filter_map(|line| line.strip_prefix("note: ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn studio_and_command_line_export_the_same_bytes_and_notes() {
+    let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let (by_command, by_studio) = (changed_lesson_without_times(one.path()), changed_lesson_without_times(two.path()));
+    let notes = exported(&by_command);
+    assert_eq!(notes.len(), 4, "times, the changed file, FLAC, no sound in the book: {notes:#?}");
+    let mut terminal = Terminal::start(&by_studio, 200, 50, &[("PATH", "/nonexistent")]);
+    terminal.until("the lesson", |screen| screen.contains("nihao") && screen.contains("export"));
+    terminal.send("e");
+    terminal.until("the prompt", |screen| screen.contains("Export"));
+    terminal.send("\u{15}srt epub html vtt\r");
+    terminal.until("its end", |screen| screen.contains("files written"));
+    let squeeze = |text: &str| text.chars().filter(|c| !c.is_whitespace() && !"│·".contains(*c)).collect::<String>();
+    let screen = squeeze(&terminal.screen());
+    for note in notes {
+        let note = note.replace("`lianpu align`", "`A`");
+        assert!(screen.contains(&squeeze(&note)), "{note} is not in\n{}", terminal.screen());
+    }
+    assert_eq!(files_in(&by_studio.join("export")), files_in(&by_command.join("export")));
+    assert!(by_studio.join("export/nihao.srt~").is_file());
+    terminal.send("\u{1b}q");
+}

@@ -25,7 +25,7 @@ use super::model::{Model, Parts};
 use super::shape::Shapes;
 use super::trust::Trust;
 use crate::aam::annotation::MAX_POINTS;
-use crate::disk::{Fault, Result, read_bytes, write_whole};
+use crate::disk::{Fault, Result, Task, message, read_bytes, write_whole};
 
 const MAGIC: &[u8; 4] = b"LPAM";
 const VERSION: u32 = 1;
@@ -74,10 +74,11 @@ impl Model {
     /// # Errors
     /// When they are of another kind or version, or damaged.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let damaged =
-            || Fault::new("the model is damaged").help("copy it again, or train it again with `lianpu aam train`");
+        let damaged = || {
+            Fault::new("the model is damaged").help(message!["copy it again, or make it again by ", Task::TrainModel])
+        };
         if !bytes.starts_with(MAGIC) {
-            return Err(Fault::new("this is not a trained model").help("train one with `lianpu aam train`"));
+            return Err(Fault::new("this is not a trained model").help(message!["make one by ", Task::TrainModel]));
         }
         let version = bytes.get(4..8).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
         if let Some(v) = version.filter(|v| *v != VERSION) {

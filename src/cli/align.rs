@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use super::output_fault;
 use super::times::{Row, json, seconds, table};
+use super::wording;
 use crate::disk::{Fault, Result, read_text, write_whole};
-use crate::project::{AlignJob, Clip, Lesson, tiers_of};
+use crate::project::{Clip, Lesson, tiers_of};
 use crate::script::{self, Syllable, System};
 use crate::speech::{self, Alignment, Note, Sound, Take};
 use crate::timing::{self, Format, Interval, Tier, Timing};
@@ -77,7 +78,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let found = speech::align(&[take]).pop().unwrap_or_else(|| Err(Fault::new("nothing was found")));
     let found = found.map_err(|f| f.at(speech))?;
     for note in notes(&found) {
-        eprintln!("note: {note}");
+        wording::note(note.to_string());
     }
     let rows: Vec<Row> = syllables.iter().zip(&found.syllables).map(|(s, f)| Row::found(s, f)).collect();
     let timing = || tiers(&text, &syllables, &found, sound.duration());
@@ -85,7 +86,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
 }
 
 fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
-    let mut lesson = Lesson::open(project)?;
+    let mut lesson = open(project, args)?;
     let chosen =
         args.clip.as_deref().map(|name| lesson.clip_named(Some(name))).transpose().map_err(Fault::of_the_call)?;
     if args.without_script {
@@ -103,50 +104,10 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
             .ok_or_else(|| Fault::new(format!("the clip `{}` has no recording", clip.entry.name)).at(&clip.folder))?;
         return marks(&sound, args, out);
     }
-    if let Some(why) = lesson.read_only.clone().filter(|_| args.out.is_none()) {
-        return Err(Fault::new(format!("the times cannot be kept: {why}"))
-            .at(project)
-            .help("open it where it can be written, or give --out FILE"));
-    }
-    if lesson.is_unsaved() {
-        return Err(Fault::new("the lesson has changes that were never saved")
-            .at(project)
-            .help("open it in the studio and save or discard them"));
-    }
-    let wanted = match chosen {
-        Some(number) => vec![number],
-        None => wanted(&lesson),
-    };
-    if wanted.is_empty() && spoken_clips(&lesson).is_empty() {
-        eprintln!("note: no clip has both a recording and a script, so there is nothing to align");
-    }
-    let mut failed: Vec<(String, Fault)> = Vec::new();
-    let mut aligned = Vec::new();
-    for sound in wanted.iter().filter_map(|n| lesson.clips[*n].sound.as_deref()) {
-        warn(sound);
-    }
-    for (number, found) in AlignJob::of(&lesson, &wanted)?.run() {
-        let name = lesson.clips[number].entry.name.clone();
-        match found {
-            Ok(found) => {
-                for note in notes(&found) {
-                    eprintln!("note: clip {name}: {note}");
-                }
-                match lesson.aligned(number, &found) {
-                    Some(change) if args.out.is_none() => lesson.change(change)?,
-                    Some(_) => lesson.take_alignment(number, &found),
-                    None => {}
-                }
-                aligned.push(number);
-            }
-            Err(fault) => failed.push((name, fault)),
-        }
-    }
-    if args.out.is_none() && lesson.is_unsaved() {
-        lesson.save()?;
-    }
+    let report = lesson.align(chosen, args.out.is_none())?;
+    report.notes.iter().for_each(wording::note);
     if args.json || args.out.is_some() {
-        let shown = if let Some(number) = chosen { vec![number] } else { spoken_clips(&lesson) };
+        let shown = if let Some(number) = chosen { vec![number] } else { lesson.spoken_clips() };
         let several = shown.len() > 1;
         let rows: Vec<Row> = shown.iter().flat_map(|n| Row::of_clip(&lesson.clips[*n], several)).collect();
         let one = shown.first().copied().filter(|_| !several);
@@ -156,44 +117,32 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         let timing = || one.map(|n| lesson.clips[n].timing.clone()).unwrap_or_default();
         give(&rows, timing, args, out)?;
     } else {
-        for number in aligned {
+        for number in report.aligned {
             writeln!(out, "{}", summary(&lesson.clips[number])).map_err(output_fault)?;
         }
     }
+    let mut failed = report.failed;
     match failed.pop() {
         None => Ok(()),
-        Some((name, fault)) => {
-            for (name, fault) in failed {
-                eprintln!("error: clip {name}: {fault}");
+        Some((last, fault)) => {
+            for (number, fault) in failed {
+                wording::error(Some(&format!("clip {}", lesson.clips[number].entry.name)), &fault);
             }
-            Err(fault.at(lesson.root.join("clips").join(name)))
+            Err(fault.at(&lesson.clips[last].folder))
         }
     }
 }
 
-/// The clips that a call without `--clip` is about. Times that somebody made are only replaced when asked for by name.
-fn wanted(lesson: &Lesson) -> Vec<usize> {
-    let mut wanted = Vec::new();
-    for number in spoken_clips(lesson) {
-        let clip = &lesson.clips[number];
-        let name = &clip.entry.name;
-        if clip.wants_alignment() {
-            wanted.push(number);
-        } else if clip.score.aligned.is_none() {
-            eprintln!("note: clip {name} has times of its own, which stay; `--clip {name}` finds them anew");
-        } else if clip.score.pins.is_empty() {
-            eprintln!("clip {name}: neither its sound nor its script has changed, its times stay");
-        } else {
-            // What an author has set since moves what lies between.
-            wanted.push(number);
-        }
+/// A project whose times are to be found: its files are written unless they go elsewhere.
+fn open(project: &Path, args: &Args) -> Result<Lesson> {
+    if args.without_script {
+        return Lesson::open(project);
     }
-    wanted
-}
-
-fn spoken_clips(lesson: &Lesson) -> Vec<usize> {
-    let spoken = |c: &Clip| c.sound.is_some() && !c.syllables.is_empty();
-    lesson.clips.iter().enumerate().filter(|(_, c)| spoken(c)).map(|(n, _)| n).collect()
+    if args.out.is_some() {
+        let lesson = Lesson::open(project)?;
+        return lesson.check_saved().map(|()| lesson);
+    }
+    Lesson::open_to_write(project, "the times")
 }
 
 fn summary(clip: &Clip) -> String {
@@ -211,7 +160,7 @@ fn summary(clip: &Clip) -> String {
 /// Says what was wrong with a recording's file and is wrong with its sound.
 fn warn(sound: &Sound) {
     for warning in sound.warnings.iter().chain(&sound.quality().remarks()) {
-        eprintln!("note: {warning}");
+        wording::note(warning.as_str());
     }
 }
 
@@ -298,21 +247,4 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
         Some(path) => write_whole(path, text.as_bytes()),
         None => out.write_all(text.as_bytes()).map_err(output_fault),
     }
-}
-
-/// Finds the times that a lesson lacks, in memory only, for a command that reads it; what it did is said.
-pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
-    let wanted: Vec<usize> = clips.iter().copied().filter(|n| lesson.clips[*n].wants_alignment()).collect();
-    let found = AlignJob::of(lesson, &wanted).map(|job| job.run()).unwrap_or_default();
-    for (number, found) in found {
-        let name = lesson.clips[number].entry.name.clone();
-        match found {
-            Ok(found) => {
-                lesson.take_alignment(number, &found);
-                eprintln!("note: the times of clip {name} were found in its sound; `lianpu align` keeps them");
-            }
-            Err(fault) => eprintln!("note: the times of clip {name} are guessed: {fault}"),
-        }
-    }
-    super::track::find_missing(lesson, clips);
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::output_fault;
+use super::{output_fault, wording};
 use crate::disk::{Fault, Result};
 use crate::project::{Finding, check, check_quality};
 
@@ -31,10 +31,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         for finding in if args.quality { check_quality(project) } else { check(project) } {
             let (kind, text) = match &finding {
                 Finding::Fine(text) => ("fine", text.clone()),
-                Finding::Odd(text) => ("odd", text.clone()),
+                Finding::Odd(text) => ("odd", text.worded(&wording::word)),
                 Finding::Wrong(fault) => {
                     wrong += 1;
-                    ("wrong", fault.to_string())
+                    ("wrong", fault.worded(&wording::word))
                 }
             };
             let line = if args.json {
@@ -44,7 +44,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                     line["text"] = fault.what().into();
                     line["file"] = fault.path().map(|p| p.display().to_string()).into();
                     line["line"] = fault.line_number().into();
-                    line["help"] = fault.next_step().into();
+                    line["help"] = fault.advice().worded(&wording::word).into();
                 }
                 line.to_string()
             } else {

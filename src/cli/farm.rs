@@ -47,7 +47,7 @@ pub struct Args {
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut options = vec!["--to".to_owned(), args.formats.clone()];
     options.extend(args.more.iter().cloned());
-    let request = super::export::request_of(&check_options(&options)?, false);
+    let request = super::export::request_of(&check_options(&options)?);
     let projects = super::lessons(&args.projects);
     let mut frames = 0;
     for project in &projects {

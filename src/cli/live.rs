@@ -15,13 +15,11 @@ use crate::track::{Options, relay};
 pub(super) fn run(model: &Path, options: &Options, out: &mut dyn Write) -> Result<()> {
     let folder = face_folder(model)?;
     let (kept, notes) = Kept::of(&folder)?;
-    for note in notes {
-        eprintln!("note: {note}");
-    }
+    notes.iter().for_each(super::wording::note);
     let input = BufReader::with_capacity(1 << 20, std::io::stdin().lock());
     let (count, lost) = relay(input, out, &kept.made.model, &kept.made.calibration, options)?;
     if lost > 0 {
-        eprintln!("note: the face was lost in {lost} of {count} frames");
+        super::wording::note(format!("the face was lost in {lost} of {count} frames"));
     }
     Ok(())
 }

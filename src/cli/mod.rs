@@ -20,6 +20,7 @@ mod studio;
 mod syllables;
 mod times;
 mod track;
+mod wording;
 
 use std::io::Write;
 
@@ -102,10 +103,13 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 /// The calibration of a face's folder as its shots are now; what there is to say of it is said.
 pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
     let (kept, notes) = crate::emotion::Kept::of(folder)?;
-    for note in notes {
-        eprintln!("note: {note}");
-    }
+    notes.iter().for_each(wording::note);
     Ok(kept.made.calibration)
+}
+
+/// Prints the fault that ends a call, on standard error.
+pub fn report(fault: &Fault) {
+    wording::error(None, fault);
 }
 
 /// Runs one call of the program.
@@ -136,6 +140,17 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
             write!(out, "{help}").map_err(output_fault)
         }
     }
+}
+
+/// Parses the name of one of a few values.
+pub(crate) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl clap::builder::TypedValueParser<Value = T> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    // The parser lets nothing through but these names.
+    PossibleValuesParser::new(all.map(name))
+        .map(move |word| all.into_iter().find(|v| name(*v) == word).unwrap_or(all[0]))
 }
 
 /// What a failed write to standard output is called.

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::frames_done::FramesDone;
-use super::output_fault;
+use super::{output_fault, wording};
 use crate::disk::Result;
 use crate::pose::Emotion;
 use crate::project::{Made, NewLesson, create};
@@ -77,8 +77,8 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         figure: args.figure.clone(),
     };
     let made = {
-        let bar = FramesDone::new("the video");
-        create(&args.project, &new, &mut |done, of| bar.show(done, of))?
+        let bar = FramesDone::default();
+        create(&args.project, &new, &mut |done, of| bar.show("the video", done, of))?
     };
     let Made { lesson, warnings, notes, calibration } = made;
     let root = args.project.display();
@@ -92,10 +92,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             };
             say(format!("made {root}: {:.2} s{syllables}", clip.duration()))?;
             for warning in &clip.warnings {
-                say(format!("note: {warning}"))?;
+                say(format!("note: {}", wording::worded(warning)))?;
             }
             for note in &notes {
-                say(format!("note: {note}"))?;
+                say(format!("note: {}", wording::worded(note)))?;
             }
             let doubts = clip.doubts();
             match doubts.first() {

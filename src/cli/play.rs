@@ -3,11 +3,13 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+use super::frames_done::FramesDone;
+use super::wording;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 use crate::emotion::{Record, Tracks, Whole, import, is_lpr};
 use crate::figure::{Figure, LineFigure};
 use crate::pose::MouthPreset;
-use crate::project::Lesson;
+use crate::project::{Lesson, prepare};
 use crate::studio::{self, Show};
 use crate::timeline::{Score, Sources, Timeline};
 
@@ -53,7 +55,11 @@ pub fn run(args: &Args) -> Result<()> {
         (None, Some(project)) => {
             let mut lesson = Lesson::read(project)?;
             let clip = lesson.clip_named(args.clip.as_deref()).map_err(Fault::of_the_call)?;
-            super::align::find_missing(&mut lesson, &[clip]);
+            let bar = FramesDone::default();
+            for note in prepare(&mut lesson, &[clip], &|clip, done, of| bar.show(clip, done, of)) {
+                wording::note(&note);
+            }
+            drop(bar);
             studio::play(Show::of_clip(&lesson, clip)?)
         }
         (None, None) => Err(Fault::new("there is nothing to play").help("name a project").of_the_call()),
@@ -93,7 +99,7 @@ fn from_file(path: &Path, figure: Figure) -> Result<()> {
     let title = path.display().to_string();
     studio::play(Show { title, timeline: timeline(&record, tracks.as_ref()), figure, captions: Vec::new() })?;
     for note in notes {
-        eprintln!("note: {note}");
+        wording::note(note);
     }
     damage.map_or(Ok(()), |fault| Err(after_playing(&fault, frames).at(path)))
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::output_fault;
+use super::{output_fault, wording};
 use crate::disk::{Fault, Result, read_bytes, write_whole};
 use crate::drawing::Drawing;
 use crate::plot;
@@ -175,7 +175,7 @@ fn write_chart(path: &Path, mut drawing: Drawing, font: Option<&Path>) -> Result
                 .map(|file| read_bytes(file, MAX_FONT_BYTES).and_then(FontFile::new).map_err(|f| f.at(file)))
                 .transpose()?;
             if font.is_none() && uncovered_in(&drawing).is_some() {
-                eprintln!("note: Chinese is drawn as Pinyin; give --font FILE with the characters, or an .svg file");
+                wording::note("Chinese is drawn as Pinyin; give --font FILE with the characters, or an .svg file");
                 drawing = drawing.with_texts(&crate::script::in_latin);
             }
             let picture = Painter::new(width, height)?.with_font(font).paint(&drawing);

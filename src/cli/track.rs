@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::frames_done::FramesDone;
-use super::{live, output_fault};
+use super::{live, output_fault, wording};
 use crate::disk::{Fault, Result};
-use crate::project::{Lesson, Method, TrackJob, counted};
+use crate::project::{Clip, Lesson, Method, TrackEvent, TrackRequest, counted};
 use crate::track::Options;
 
 /// Follow the face in videos: the seven ratios of every frame into ratios.csv, its eyes, mouth and head into tracks.csv.
@@ -19,7 +19,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME", requires = "project")]
     clip: Option<String>,
     /// By the person's active appearance model, or by regions of eyes and mouth.
-    #[arg(long, value_enum, default_value_t, value_name = "HOW")]
+    #[arg(long, default_value = Method::default().name(), value_name = "aam|regions", value_parser = super::one_of(Method::ALL, Method::name))]
     by: Method,
     /// Ratios as the paper has them: of the whole face, so that speech and blinks are read as emotion too, and some are
     /// negative. Without it they are the nearest mix from 0 on, told apart from what the face does besides.
@@ -54,103 +54,30 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
 }
 
 fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write) -> Result<()> {
-    let mut lesson = Lesson::open(project)?;
-    let chosen =
+    let mut lesson = Lesson::open_to_write(project, "the ratios")?;
+    let clip =
         args.clip.as_deref().map(|name| lesson.clip_named(Some(name))).transpose().map_err(Fault::of_the_call)?;
-    if let Some(why) = &lesson.read_only {
-        return Err(Fault::new(format!("what is found cannot be kept: {why}"))
-            .at(project)
-            .help("open it where it can be written"));
-    }
-    if lesson.is_unsaved() {
-        return Err(Fault::new("the lesson has changes that were never saved")
-            .at(project)
-            .help("open it in the studio and save or discard them"));
-    }
-    let mut failed: Option<Fault> = None;
-    for number in wanted(&lesson, chosen, args, options)? {
-        let name = lesson.clips[number].entry.name.clone();
-        let bar = FramesDone::new(&name);
-        let job = TrackJob::of(&lesson, number, args.by, *options);
-        let found = job.and_then(|job| job.run(&mut |done, of| bar.show(done, of)));
-        drop(bar);
-        match found {
-            Ok(found) => {
-                for note in found.notes.iter().chain(&found.tracked.notes) {
-                    eprintln!("note: clip {name}: {note}");
-                }
-                if let Some(change) = lesson.tracked(number, &found.tracked, &found.checksum) {
-                    lesson.change(change)?;
-                    lesson.save()?;
-                }
-                writeln!(out, "{}", summary(&lesson, number)).map_err(output_fault)?;
-            }
-            Err(fault) => {
-                if let Some(before) = failed.replace(fault) {
-                    eprintln!("error: {before}");
+    let request = TrackRequest { clip, method: args.by, options: *options, replace: args.replace };
+    let bar = FramesDone::default();
+    let mut failed: Option<(String, Fault)> = None;
+    lesson.track(&request, &|clip, done, of| bar.show(clip, done, of), &mut |event| {
+        bar.clear();
+        match event {
+            TrackEvent::Note(note) => wording::note(note),
+            TrackEvent::Tracked(clip) => return writeln!(out, "{}", summary(clip)).map_err(output_fault),
+            TrackEvent::Failed(clip, fault) => {
+                if let Some((name, before)) = failed.replace((format!("clip {}", clip.entry.name), fault)) {
+                    wording::error(Some(&name), &before);
                 }
             }
         }
-    }
-    failed.map_or(Ok(()), Err)
-}
-
-/// Follows the faces of clips whose videos were never followed, in memory only, and says so.
-pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
-    for number in clips.iter().copied().filter(|n| lesson.clips[*n].wants_tracking()).collect::<Vec<_>>() {
-        let name = lesson.clips[number].entry.name.clone();
-        let bar = FramesDone::new(&name);
-        let job = TrackJob::of(lesson, number, Method::default(), Options::default());
-        let found = job.and_then(|job| job.run(&mut |done, of| bar.show(done, of)));
-        drop(bar);
-        match found {
-            Ok(found) => {
-                lesson.take_tracked(number, found.tracked, &found.checksum);
-                eprintln!(
-                    "note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found"
-                );
-            }
-            Err(fault) => eprintln!("note: the face in the video of clip {name} was not followed: {fault}"),
-        }
-    }
-}
-
-/// The clips that are to be followed. A record that somebody made otherwise is only replaced when that is asked for.
-fn wanted(lesson: &Lesson, chosen: Option<usize>, args: &Args, options: &Options) -> Result<Vec<usize>> {
-    let mut wanted = Vec::new();
-    for (number, clip) in lesson.clips.iter().enumerate() {
-        let name = &clip.entry.name;
-        if chosen.is_some_and(|c| c != number) {
-            continue;
-        }
-        if clip.video.is_none() {
-            if chosen.is_some() {
-                return Err(Fault::new(format!("the clip `{name}` has no video"))
-                    .at(&clip.folder)
-                    .help("put it there as video.mp4, or as pictures in a folder frames/"));
-            }
-            continue;
-        }
-        let own = clip.record.is_some() && clip.score.tracked.is_none();
-        if own && !args.replace {
-            let text =
-                format!("clip {name} has ratios of its own, which stay; `--replace` puts the video's in their place");
-            eprintln!("note: {text}");
-        } else if chosen.is_some() || own || lesson.is_tracked_anew(number, args.by, options)? {
-            wanted.push(number);
-        } else {
-            eprintln!("clip {name}: neither its video nor the calibration has changed, what was found stays");
-        }
-    }
-    if lesson.clips.iter().all(|c| c.video.is_none()) {
-        eprintln!("note: no clip has a video, so there is nothing to follow");
-    }
-    Ok(wanted)
+        Ok(())
+    })?;
+    failed.map_or(Ok(()), |(_, fault)| Err(fault))
 }
 
 /// What was found, in a line.
-fn summary(lesson: &Lesson, number: usize) -> String {
-    let clip = &lesson.clips[number];
+fn summary(clip: &Clip) -> String {
     let rows = clip.record.as_ref().map_or(&[][..], |r| &r.rows);
     let lost = rows.iter().filter(|r| r.confidence <= 0.0).count();
     let mut line = format!("clip {}: {} followed", clip.entry.name, counted(rows.len(), "frame"));

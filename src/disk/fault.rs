@@ -1,13 +1,20 @@
-//! The error of everything that reads what a person wrote: what, where, what to do.
+//! The error of everything that reads what a person wrote: its kind, what, where, what to do.
 
+use std::any::Any;
 use std::error::Error;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::{Message, NextStep};
+
 /// What every reading room returns.
 pub type Result<T, E = Fault> = std::result::Result<T, E>;
 
-/// Something in the input is wrong. Prints as up to three lines: what, where, what to do.
+/// A room's enum of faults, matched by programs: `fault.kind::<ExportFault>()`.
+pub trait FaultKind: Any + fmt::Debug + Send + Sync {}
+
+/// Something in the input is wrong. Prints as up to three lines: what, where, what to do. The next step is a [`Message`]:
+/// a face words it with its own commands or keys by [`Fault::worded`].
 ///
 /// ```
 /// use lianpu::disk::Fault;
@@ -15,12 +22,17 @@ pub type Result<T, E = Fault> = std::result::Result<T, E>;
 /// assert_eq!(fault.to_string(), "`fps` is 0\n  at lianpu.toml:7\n  give a number from 1 to 240");
 /// ```
 #[derive(Debug)]
-pub struct Fault {
+pub struct Fault(Box<Inner>);
+
+/// The parts of a fault, in a box: results are small where nothing is wrong.
+#[derive(Debug, Default)]
+struct Inner {
+    kind: Option<Box<dyn FaultKind>>,
     what: String,
     path: Option<PathBuf>,
     line: Option<usize>,
-    help: String,
-    /// The call itself was wrong (exit code 2), not the input (exit code 1).
+    help: Message,
+    /// The request itself was wrong, not the input.
     call: bool,
     source: Option<Box<dyn Error + Send + Sync>>,
 }
@@ -29,91 +41,144 @@ impl Fault {
     /// What was found, in one line, with the offending text in backticks.
     #[must_use]
     pub fn new(what: impl Into<String>) -> Self {
-        Self { what: what.into(), path: None, line: None, help: String::new(), call: false, source: None }
+        Self(Box::new(Inner { what: what.into(), ..Inner::default() }))
+    }
+
+    /// A fault of a kind, found in one line, with the offending text in backticks.
+    #[must_use]
+    pub fn of(kind: impl FaultKind, what: impl Into<String>) -> Self {
+        Self(Box::new(Inner { kind: Some(Box::new(kind)), what: what.into(), ..Inner::default() }))
     }
 
     /// A failed operation on a file, with the system's own word as the source.
     #[must_use]
     pub fn io(doing: &str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
         let mut fault = Self::new(format!("{doing}: {source}")).at(path);
-        fault.source = Some(Box::new(source));
+        fault.0.source = Some(Box::new(source));
         fault
     }
 
     /// The file it is in. A file given further in wins over one given further out.
     #[must_use]
     pub fn at(mut self, path: impl AsRef<Path>) -> Self {
-        self.path.get_or_insert_with(|| path.as_ref().to_owned());
+        self.0.path.get_or_insert_with(|| path.as_ref().to_owned());
         self
     }
 
     /// The line it is on, counted from 1.
     #[must_use]
     pub fn line(mut self, line: usize) -> Self {
-        self.line.get_or_insert(line);
+        self.0.line.get_or_insert(line);
         self
     }
 
     /// What is allowed, or what to do next.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = help.into();
+    pub fn help(mut self, help: impl Into<Message>) -> Self {
+        self.0.help = help.into();
         self
     }
 
-    /// Marks the call, not the input, as what was wrong.
+    /// The same fault with another first line.
+    #[must_use]
+    pub fn rephrased(mut self, what: impl Into<String>) -> Self {
+        self.0.what = what.into();
+        self
+    }
+
+    /// Marks the request, not the input, as what was wrong.
     #[must_use]
     pub fn of_the_call(mut self) -> Self {
-        self.call = true;
+        self.0.call = true;
         self
     }
 
-    /// Whether the call itself was wrong.
+    /// Whether the request itself was wrong.
     #[must_use]
     pub fn is_of_the_call(&self) -> bool {
-        self.call
+        self.0.call
+    }
+
+    /// Its kind, where it is of the room whose enum is `K`.
+    #[must_use]
+    pub fn kind<K: FaultKind>(&self) -> Option<&K> {
+        let kind: &dyn Any = self.0.kind.as_deref()?;
+        kind.downcast_ref()
     }
 
     /// What was found, without place and help.
     #[must_use]
     pub fn what(&self) -> &str {
-        &self.what
+        &self.0.what
     }
 
     /// The file it is in, where one is known.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
-        self.path.as_deref()
+        self.0.path.as_deref()
     }
 
     /// The line it is on, where one is known.
     #[must_use]
     pub fn line_number(&self) -> Option<usize> {
-        self.line
+        self.0.line
     }
 
-    /// What to do next; empty where nothing better than the message can be said.
+    /// What to do next, as text that names no program and no key; empty where nothing better than the message can be said.
     #[must_use]
-    pub fn next_step(&self) -> &str {
-        &self.help
+    pub fn next_step(&self) -> String {
+        self.0.help.to_string()
+    }
+
+    /// What to do next, with its steps as data.
+    #[must_use]
+    pub fn advice(&self) -> &Message {
+        &self.0.help
+    }
+
+    /// The fault as a message: what, where and the advice after each other.
+    #[must_use]
+    pub fn to_message(&self) -> Message {
+        let mut head = self.0.what.clone();
+        head.push_str(&self.place());
+        if self.0.help.is_empty() { head.into() } else { self.0.help.clone().after(head + "\n  ") }
+    }
+
+    /// What is wrong and what to do, in one line and without the place.
+    #[must_use]
+    pub fn in_a_line(&self) -> Message {
+        if self.0.help.is_empty() {
+            self.0.what.as_str().into()
+        } else {
+            self.0.help.clone().after(format!("{}: ", self.0.what))
+        }
+    }
+
+    /// The printed form, with every step of the advice as `word` puts it.
+    #[must_use]
+    pub fn worded(&self, word: &dyn Fn(&NextStep) -> String) -> String {
+        self.to_message().worded(word)
+    }
+
+    /// The lines of the place: empty where none is known.
+    fn place(&self) -> String {
+        match (&self.0.path, self.0.line) {
+            (Some(path), Some(line)) => format!("\n  at {}:{line}", path.display()),
+            (Some(path), None) => format!("\n  at {}", path.display()),
+            (None, Some(line)) => format!("\n  at line {line}"),
+            (None, None) => String::new(),
+        }
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.what)?;
-        match (&self.path, self.line) {
-            (Some(path), Some(line)) => write!(f, "\n  at {}:{line}", path.display())?,
-            (Some(path), None) => write!(f, "\n  at {}", path.display())?,
-            (None, Some(line)) => write!(f, "\n  at line {line}")?,
-            (None, None) => {}
-        }
-        if self.help.is_empty() { Ok(()) } else { write!(f, "\n  {}", self.help) }
+        f.write_str(&self.worded(&NextStep::to_string))
     }
 }
 
 impl Error for Fault {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
-        self.source.as_deref().map(|s| s as &(dyn Error + 'static))
+        self.0.source.as_deref().map(|s| s as &(dyn Error + 'static))
     }
 }

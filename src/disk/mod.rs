@@ -4,13 +4,18 @@
 //! It knows nothing of what the files mean.
 
 mod fault;
+mod message;
+mod next_step;
 mod paths;
 mod read;
 mod temporary;
 mod toml;
 mod write;
 
-pub use fault::{Fault, Result};
+pub use fault::{Fault, FaultKind, Result};
+pub(crate) use message::message;
+pub use message::{Message, Part};
+pub use next_step::{NextStep, Setting, Task};
 pub use paths::{inside, plain_name};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
 pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};

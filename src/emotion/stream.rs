@@ -121,7 +121,7 @@ impl<R: Read> Form<R> {
 
 /// A fault of a part read by itself, with its place in the whole.
 fn placed(fault: &Fault, place: &str) -> Fault {
-    Fault::new(format!("{place}: {}", fault.what().trim_start_matches("entry 1: "))).help(fault.next_step())
+    Fault::new(format!("{place}: {}", fault.what().trim_start_matches("entry 1: "))).help(fault.advice())
 }
 
 /// The next line that is not empty, and its number.

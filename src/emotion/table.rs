@@ -93,7 +93,7 @@ pub(super) fn from_json(text: &str, columns: &[&str]) -> Result<Vec<Line>> {
             None => {
                 let names: Vec<&str> = entry.keys().map(String::as_str).collect();
                 let fault = missing(column, &names, columns);
-                Err(place.fault(fault.what()).help(fault.next_step()))
+                Err(place.fault(fault.what()).help(fault.advice()))
             }
         });
         rows.push(Line { place, cells: numbers.collect::<Result<_>>()? });

@@ -11,7 +11,7 @@ use super::manifest::{add_content, hex};
 use super::plan::{checked_output, chosen_clips, frames_asked, out_folder, root_folder, texts_of};
 use super::whole::TOGETHER;
 use super::{Asked, Format, Request, wholes};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, message};
 use crate::project::Lesson;
 use crate::render::REVISION;
 
@@ -48,7 +48,7 @@ pub fn asked(lesson: &Lesson, request: &Request) -> Result<Vec<Asked>> {
     }
     if request.clip.as_deref() == Some(TOGETHER) && request.formats.iter().any(|f| f.is_of_the_lesson()) {
         return Err(Fault::new(format!("the page of the clip `{TOGETHER}` would take the name of the whole lesson's"))
-            .help("rename the clip, or leave out --clip")
+            .help(message!["rename the clip, or leave out ", Setting::Clip])
             .of_the_call());
     }
     check_names(&all, request.by_project && request.out.is_some())?;
@@ -160,7 +160,13 @@ fn check_names(all: &[Asked], by_project: bool) -> Result<()> {
     for path in all.iter().flat_map(|a| &a.whole) {
         if is_manifest(path) || folders.contains(path) || !seen.insert(path) {
             return Err(Fault::new(format!("two files of this export, or a file and a folder, would be `{path}`"))
-                .help("export the formats or clips one by one with --clip and --out, or rename a clip")
+                .help(message![
+                    "export the formats or clips one by one with ",
+                    Setting::Clip,
+                    " and ",
+                    Setting::Out,
+                    ", or rename a clip"
+                ])
                 .of_the_call());
         }
     }

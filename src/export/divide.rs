@@ -5,7 +5,7 @@ use std::env;
 use std::ops::Range;
 
 use super::Shard;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, message};
 
 /// One clip's share in a part of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -69,7 +69,11 @@ fn shard_from(variable: impl Fn(&str) -> Option<String>) -> Result<Option<Shard>
     })();
     shard.map(Some).ok_or_else(|| {
         Fault::new(format!("it cannot be told which part task {own} of this job array is to do"))
-            .help("say it with --shard I/N; arrays in even steps, such as 1-9 or 0-8, need not")
+            .help(message![
+                "say it with ",
+                Setting::Shard.of("I/N"),
+                "; arrays in even steps, such as 1-9 or 0-8, need not"
+            ])
             .of_the_call()
     })
 }

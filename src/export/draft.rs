@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::disk::{Fault, Result, put_whole, temporary_in};
+use crate::disk::{Fault, Result, Setting, message, put_whole, temporary_in};
 
 /// Whatever becomes of it, nobody sees half of it: dropped, it is gone.
 pub(super) struct Draft {
@@ -60,9 +60,12 @@ pub(super) fn folder_fault(folder: &Path, error: std::io::Error) -> Fault {
     let in_the_way = folder.ancestors().find(|f| !f.as_os_str().is_empty() && f.symlink_metadata().is_ok());
     let help = match in_the_way.filter(|f| !f.is_dir()) {
         Some(file) => {
-            format!("`{}` is no folder: move it away, or choose another place with --out DIR", file.display())
+            message![
+                format!("`{}` is no folder: move it away, or choose another place with ", file.display()),
+                Setting::Out
+            ]
         }
-        None => "choose a place where you may write with --out DIR".to_owned(),
+        None => message!["choose a place where you may write with ", Setting::Out],
     };
     Fault::io("cannot make the folder", folder, error).help(help)
 }
@@ -85,7 +88,8 @@ mod tests {
             let text = fault.to_string();
             assert!(text.starts_with("cannot make the folder: "), "{text}");
             assert!(
-                text.contains(&format!("`{}` is no folder", out.display())) && text.contains("--out DIR"),
+                text.contains(&format!("`{}` is no folder", out.display()))
+                    && fault.advice().steps().any(|s| *s == Setting::Out.into()),
                 "{text}"
             );
         }

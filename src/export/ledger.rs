@@ -10,7 +10,7 @@ use super::Shard;
 use super::asked::within;
 use super::manifest::{Asked, Entry, Manifest};
 use super::merge::parts_in;
-use crate::disk::{Fault, Result, read_old};
+use crate::disk::{Fault, Message, Result, read_old};
 
 /// What a running export knows of its files.
 #[derive(Debug)]
@@ -58,7 +58,7 @@ impl Ledger {
     /// Before a file is written anew: where somebody has changed it since an earlier export, theirs is kept beside it under
     /// the same name with a `~`. Returns what the author should know of it. `new` is what will be written, where that is
     /// known.
-    pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<Option<String>> {
+    pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<Option<Message>> {
         let name = within(&self.folder, path);
         let wrote: Vec<&Entry> = self.before.iter().filter_map(|m| m.entry(&name)).collect();
         let Some(old) = read_old(path).filter(|old| new.is_none_or(|new| new != old)) else { return Ok(None) };
@@ -69,7 +69,8 @@ impl Ledger {
         let mut aside = path.as_os_str().to_owned();
         aside.push("~");
         fs::rename(path, &aside).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))?;
-        Ok(Some(format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew")))
+        let note = format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew");
+        Ok(Some(note.into()))
     }
 
     /// Notes a file that was made from what `key` tells.

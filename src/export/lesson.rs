@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::plan::out_folder;
-use super::{Format, Ledger, Progress, Report, Request, Whole, movie, plan, run, wholes, write_wholes};
-use crate::disk::{Result, clear_temporaries};
+use super::{ExportFault, Format, Ledger, Progress, Report, Request, Whole, movie, plan, run, wholes, write_wholes};
+use crate::disk::{Fault, Message, Result, Setting, Task, clear_temporaries, message};
 use crate::project::Lesson;
 
 /// What an export is at.
@@ -16,6 +16,15 @@ pub enum Step<'a> {
     Frames(Progress),
     /// A file that holds a clip or the lesson whole, and how many of its frames are done.
     Whole(&'a Whole, Progress),
+    /// The face in a clip's video is followed, since the clip has no ratios.
+    Tracking {
+        /// The clip's name.
+        clip: &'a str,
+        /// Frames done.
+        done: usize,
+        /// Frames in all, where that is known.
+        of: Option<usize>,
+    },
 }
 
 /// Where something is now.
@@ -35,7 +44,7 @@ pub struct Exported {
     /// What there is now, in the order it was made.
     pub places: Vec<Place>,
     /// What the author should know, each once.
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
     /// How much was done.
     pub report: Report,
 }
@@ -57,6 +66,7 @@ pub fn export(
     if whole.iter().any(|w| matches!(w.format, Format::Mp4 | Format::Webm)) {
         movie::is_there()?;
     }
+    check_ratios(lesson, &whole)?;
     // What a run that was killed has left half done.
     clear_temporaries(&out_folder(lesson, request));
     jobs.iter().for_each(|job| clear_temporaries(&job.folder));
@@ -93,9 +103,26 @@ pub fn export(
     Ok(exported)
 }
 
+/// A record is written of ratios that are there, not of a face at rest in place of those that are lost.
+fn check_ratios(lesson: &Lesson, whole: &[Whole]) -> Result<()> {
+    let records = whole.iter().filter(|w| matches!(w.format, Format::Ratios | Format::Lpr));
+    let lost = records.filter_map(|w| w.clip.as_deref()).find_map(|name| {
+        let clip = lesson.clips.iter().find(|c| c.entry.name == name)?;
+        (clip.record.is_none() && (clip.video.is_some() || clip.lost_its_record())).then_some(clip)
+    });
+    let Some(clip) = lost else { return Ok(()) };
+    let what = format!("the clip `{}` has no ratios: its ratios.csv is not there", clip.entry.name);
+    let help = match clip.video {
+        Some(_) => message!["find them by ", Task::Track, ", or leave the formats ratios and lpr out"],
+        None => "put the file back, or leave the formats ratios and lpr out".into(),
+    };
+    Err(Fault::of(ExportFault::NoRatios, what).at(clip.folder.join("ratios.csv")).help(help))
+}
+
 /// Some forms have no use for a part of a clip.
-fn note_on_frames(request: &Request) -> Option<String> {
+fn note_on_frames(request: &Request) -> Option<Message> {
     let follows = |f: &Format| f.is_frames() || f.is_moving() || *f == Format::Poses;
     let others: Vec<&str> = request.formats.iter().filter(|f| !follows(f)).map(|f| f.name()).collect();
-    (!others.is_empty()).then(|| format!("of the whole clip, whatever --frames says: {}", others.join(", ")))
+    (!others.is_empty())
+        .then(|| message!["of the whole clip, whatever ", Setting::Frames, format!(" says: {}", others.join(", "))])
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::manifest::{Entry, Manifest};
 use super::{Shard, divide};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Message, Result, Setting, Task, message};
 
 /// What joining found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,9 +33,11 @@ pub fn merge(folder: &Path) -> Result<Merged> {
     if found.is_empty() {
         let path = folder.join(Manifest::name(Shard::WHOLE));
         if !path.is_file() {
-            return Err(Fault::new("there is no manifest of an export here")
-                .at(folder)
-                .help("give the folder that `lianpu export --shard I/N` wrote into, once its parts are done"));
+            return Err(Fault::new("there is no manifest of an export here").at(folder).help(message![
+                "give the folder that ",
+                Task::Export.with(Setting::Shard, "I/N"),
+                " wrote into, once its parts are done"
+            ]));
         }
         let whole = Manifest::read(&path)?;
         check_asked(folder, &whole, &whole.files, 1)?;
@@ -75,9 +77,9 @@ pub(super) fn parts_in(folder: &Path) -> Result<Vec<(PathBuf, Manifest)>> {
     paths.into_iter().map(|path| Manifest::read(&path).map(|manifest| (path, manifest))).collect()
 }
 
-/// How to do a part again.
-fn again(shard: Shard) -> String {
-    format!("run the same export with --shard {shard}, then merge again")
+/// The advice to do a part again.
+fn again(shard: Shard) -> Message {
+    message!["run the same export with ", Setting::Shard.of(shard.to_string()), ", then merge again"]
 }
 
 /// The parts by their numbers, all of them, all of one export.
@@ -221,11 +223,15 @@ fn check_files(folder: &Path, files: &[Entry], owner: impl Fn(&str) -> Option<Sh
     shards.sort_by_key(|s| s.index());
     shards.dedup();
     let help = match &shards[..] {
-        [] => "run the export again".to_owned(),
+        [] => "run the export again".into(),
         [one] => again(*one),
         [first, more @ ..] => {
             let more: Vec<String> = more.iter().map(Shard::to_string).collect();
-            format!("run the same export with --shard {first}, and then {}, then merge again", more.join(", "))
+            message![
+                "run the same export with ",
+                Setting::Shard.of(first.to_string()),
+                format!(", and then {}, then merge again", more.join(", "))
+            ]
         }
     };
     Err(Fault::new(what).at(folder.join(&first.path)).help(help))

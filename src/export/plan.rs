@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Dedupe, Format, FrameSet, Share, captions, poses, said};
+use super::{Dedupe, ExportFault, Format, FrameSet, Share, captions, poses, said};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::{Figure, Widths};
@@ -146,7 +146,7 @@ pub fn plan(lesson: &Lesson, request: &Request) -> Result<Vec<Job>> {
 /// When the clip has no such frame.
 pub(super) fn frames_asked(request: &Request, name: &str, count: u32) -> Result<Vec<u32>> {
     if let Some(last) = request.frames.last().filter(|last| *last >= count) {
-        return Err(Fault::new(format!("frame {last} is beyond the clip `{name}`"))
+        return Err(Fault::of(ExportFault::NoSuchFrame, format!("frame {last} is beyond the clip `{name}`"))
             .help(format!("it has {count} frames, 0 to {}", count.saturating_sub(1)))
             .of_the_call());
     }

@@ -10,7 +10,7 @@ use super::asked::within;
 use super::digests::Digests;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Entry, Format, Job};
-use crate::disk::{Fault, Result, read_old, replace, write_whole};
+use crate::disk::{Fault, Result, Setting, message, read_old, replace, write_whole};
 use crate::drawing::Drawing;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
 
@@ -125,9 +125,9 @@ impl Tally {
     }
 }
 
-/// A place that cannot be written to is no reason not to export.
-fn elsewhere(fault: Fault) -> Fault {
-    fault.help("choose another place with --out DIR")
+/// The same fault with the advice to write to another folder.
+pub(super) fn elsewhere(fault: Fault) -> Fault {
+    fault.help(message!["choose another place with ", Setting::Out])
 }
 
 impl Job {
@@ -289,7 +289,7 @@ impl ClipOf<'_> {
             Some(coder) => coder,
             None => match self.coder.get_or_init(|| self.learn()) {
                 Ok(clip) => coder.insert(clip.frames()?),
-                Err(fault) => return Err(Fault::new(fault.what()).help(fault.next_step())),
+                Err(fault) => return Err(Fault::new(fault.what()).help(fault.advice())),
             },
         };
         file.clear();

@@ -187,7 +187,7 @@ fn help(doubt: &Doubt) -> &'static str {
         Doubt::Turned(_) => "look straight into the camera",
         Doubt::MouthOpen(_) => "close it: the cartoon's mouth opens from a closed one",
         Doubt::Small(_) => "take the photo nearer, or do not scale it down",
-        Doubt::Unusual | Doubt::Guessed(_) => "look at the points and correct them in the studio",
+        Doubt::Unusual | Doubt::Guessed(_) => "look at the points and correct them",
     }
 }
 

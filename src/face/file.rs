@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 
 use super::{Beard, Colours, Face, FeaturePoint, Hair, HairKind, How, Measures, PhotoRecord, Placed};
-use crate::disk::{Fault, Result, from_toml, nearest};
+use crate::disk::{Fault, Result, Task, from_toml, message, nearest};
 use crate::drawing::Colour;
 use crate::geometry::Point;
 
@@ -138,8 +138,11 @@ impl Face {
         };
         let lost = missing(&mut FeaturePoint::fixed());
         if !lost.is_empty() {
-            return Err(Fault::new(format!("[points] lacks {}", lost.join(", ")))
-                .help("put them back, or move face.toml aside and run `lianpu face PROJECT`"));
+            return Err(Fault::new(format!("[points] lacks {}", lost.join(", "))).help(message![
+                "put them back, or move face.toml aside: ",
+                Task::FindFace,
+                " writes it anew"
+            ]));
         }
         let hairless = missing(&mut (0..FeaturePoint::HAIR).map(FeaturePoint::hair));
         if !hairless.is_empty() && hairless.len() != FeaturePoint::HAIR {
@@ -175,8 +178,11 @@ impl Face {
         }
         let photo = table.photo;
         if photo.sha256.len() != 64 || !photo.sha256.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return Err(at_line(Fault::new("`sha256` is not 64 hexadecimal digits"), "sha256")
-                .help("move face.toml aside and run `lianpu face PROJECT`"));
+            return Err(at_line(Fault::new("`sha256` is not 64 hexadecimal digits"), "sha256").help(message![
+                "move face.toml aside: ",
+                Task::FindFace,
+                " writes it anew"
+            ]));
         }
         Ok(Self {
             points,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{Clip, LessonFace, MANIFEST, Manifest, figures, quality};
-use crate::disk::{Fault, read_bytes};
+use crate::disk::{Fault, Message, Task, message, read_bytes};
 use crate::emotion::ShotFiles;
 use crate::face::{FeaturePoint, How};
 use crate::figure::Figure;
@@ -20,7 +20,7 @@ pub enum Finding {
     /// It is there.
     Fine(String),
     /// It is not there, or odd, and the lesson works all the same.
-    Odd(String),
+    Odd(Message),
     /// The lesson, or this part of it, cannot be used.
     Wrong(Fault),
 }
@@ -71,7 +71,7 @@ fn find(root: &Path, more: impl Fn(&Clip) -> Vec<Finding>) -> Vec<Finding> {
 
 fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
     let name = &face.entry.name;
-    let odd = |text: String| Finding::Odd(format!("face {name}: {text}"));
+    let whose = format!("face {name}: ");
     let figure = match figures::figure(root, Some(face)) {
         Ok(figure) => figure,
         Err(fault) => return vec![Finding::Wrong(fault)],
@@ -85,13 +85,25 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
             let drawn = if is_cartoon { "drawn as a cartoon" } else { "with points, drawn as a line figure" };
             found.push(Finding::Fine(format!("face {name}: {drawn}{by_hand}")));
             if let Some(what) = points.oddity() {
-                found.push(odd(format!("{what}: `f` in the studio shows the points, `lianpu face` finds them again")));
+                found.push(odd(
+                    &whose,
+                    message![
+                        format!("{what}: "),
+                        Task::Open,
+                        " shows the points, ",
+                        Task::FindFace,
+                        " finds them again"
+                    ],
+                ));
             }
             match &face.photo {
-                None => found.push(odd("its photo is not there, so its points cannot be found again".into())),
+                None => found.push(odd(&whose, "its photo is not there, so its points cannot be found again")),
                 Some(path) => match read_bytes(path, MAX_PHOTO_BYTES).map(|bytes| sha256(&bytes)) {
                     Ok(sum) if sum != points.photo.sha256 => {
-                        found.push(odd("its points are of another photo: `lianpu face` finds them in this one".into()));
+                        found.push(odd(
+                            &whose,
+                            message!["its points are of another photo: ", Task::FindFace, " finds them in this one"],
+                        ));
                     }
                     Ok(_) => {}
                     Err(fault) => found.push(Finding::Wrong(fault)),
@@ -99,25 +111,31 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
             }
         }
         None if is_cartoon => {
-            found.push(odd("its points are looked for each time; `lianpu face` finds and keeps them".into()));
+            found.push(odd(
+                &whose,
+                message!["its points are looked for each time; ", Task::FindFace, " finds and keeps them"],
+            ));
         }
         None if face.photo.is_some() => {
-            found.push(odd("it has a photo and no points yet: `lianpu face` finds them for a cartoon".into()));
+            found.push(odd(
+                &whose,
+                message!["it has a photo and no points yet: ", Task::FindFace, " finds them for a cartoon"],
+            ));
         }
         None => {}
     }
     found.extend(of_shots(face));
     if let (false, Some(style)) = (is_cartoon, &face.entry.style) {
-        found.push(odd(format!("line figures have no styles, `{style}` changes nothing")));
+        found.push(odd(&whose, format!("line figures have no styles, `{style}` changes nothing")));
     }
     if !is_cartoon && !face.entry.layers.is_empty() {
-        found.push(odd("line figures have no layers of their own, `layers` changes nothing".into()));
+        found.push(odd(&whose, "line figures have no layers of their own, `layers` changes nothing"));
     }
     for entry in face.entry.layers.iter().filter(|_| is_cartoon) {
         if let Ok(layer) = figures::layer(root, entry)
             && !layer.left_out.is_empty()
         {
-            found.push(odd(format!("`{}` is drawn without {}", entry.file, layer.left_out.join(", "))));
+            found.push(odd(&whose, format!("`{}` is drawn without {}", entry.file, layer.left_out.join(", "))));
         }
     }
     found
@@ -129,12 +147,16 @@ fn of_shots(face: &LessonFace) -> Option<Finding> {
     let shots = counted(face.shots.iter().filter(|s| s.photo.is_some()).count(), "photo");
     if let Some(what) = &face.damage {
         let what = format!("its calibration.toml cannot be read ({what})");
-        return Some(Finding::Odd(format!("face {name}: {what}; `lianpu calibrate` makes it anew")));
+        return Some(Finding::Odd(message![format!("face {name}: {what}; "), Task::Calibrate, " makes it anew"]));
     }
     let Some(file) = &face.calibration else {
         let any = face.shots.iter().any(|s| s.photo.is_some());
         return any.then(|| {
-            Finding::Odd(format!("face {name}: {shots} of emotions, never calibrated; `lianpu calibrate` does that"))
+            Finding::Odd(message![
+                format!("face {name}: {shots} of emotions, never calibrated; "),
+                Task::Calibrate,
+                " does that"
+            ])
         });
     };
     // The photos may be others too, which only their bytes tell.
@@ -142,11 +164,13 @@ fn of_shots(face: &LessonFace) -> Option<Finding> {
         let retake = file.quality.retake.as_ref();
         return Some(match retake {
             None => Finding::Fine(format!("face {name}: calibrated with {shots} of emotions")),
-            Some(retake) => Finding::Odd(format!("face {name}: calibrated with {shots} of emotions; {}", retake.why)),
+            Some(retake) => {
+                Finding::Odd(format!("face {name}: calibrated with {shots} of emotions; {}", retake.why).into())
+            }
         });
     }
     let what = "its photos or points were changed since it was calibrated";
-    Some(Finding::Odd(format!("face {name}: {what}; `lianpu calibrate` does that again")))
+    Some(Finding::Odd(message![format!("face {name}: {what}; "), Task::Calibrate, " does that again"]))
 }
 
 fn of_clip(clip: &Clip) -> Vec<Finding> {
@@ -170,71 +194,95 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
         parts.push(counted(keys, "key"));
     }
     let mut found = vec![Finding::Fine(format!("clip {name}: {}", parts.join(", ")))];
-    let odd = |text: String| Finding::Odd(format!("clip {name}: {text}"));
+    let whose = format!("clip {name}: ");
     if clip.timing.guessed && !clip.syllables.is_empty() {
-        let how = if clip.sound.is_some() { "`lianpu align` finds them" } else { "set them in the studio" };
-        found.push(odd(format!("the syllables' times are guessed; {how}")));
+        let guessed = "the syllables' times are guessed; ";
+        found.push(odd(
+            &whose,
+            match clip.sound {
+                Some(_) => message![guessed, Task::Align, " finds them"],
+                None => message![guessed, "set them in ", Task::Open],
+            },
+        ));
     }
     if clip.wants_tracking() {
-        found.push(odd("the face in its video was never followed; `lianpu track` does that".into()));
+        let what = match clip.lost_its_record() {
+            true => "its ratios.csv is gone; ",
+            false => "the face in its video was never followed; ",
+        };
+        found.push(odd(&whose, message![what, Task::Track, " does that"]));
+    }
+    if clip.video.is_none() && clip.lost_its_record() {
+        found.push(odd(&whose, "its ratios.csv is gone, and so is its video: its ratios are neutral"));
     }
     let lost = clip.lost();
     if let Some(first) = lost.first() {
         let places = counted(lost.len(), "place");
-        found.push(odd(format!(
-            "{places} of its video to look at, the first at {:.2} s: {}",
-            first.start,
-            clip.told(first)
-        )));
+        found.push(odd(
+            &whose,
+            format!("{places} of its video to look at, the first at {:.2} s: {}", first.start, clip.told(first)),
+        ));
     }
     if clip.sound.is_some() && clip.syllables.is_empty() && clip.tracks.is_none() {
-        found.push(odd("there is sound and no script, so the mouth stays shut".into()));
+        found.push(odd(&whose, "there is sound and no script, so the mouth stays shut"));
     }
     if clip.sound.is_none() && !clip.syllables.is_empty() {
-        found.push(odd("there is no recording: put it there as speech.wav".into()));
+        found.push(odd(&whose, "there is no recording: put it there as speech.wav"));
     }
     let sounding: f64 = clip.sound.iter().flat_map(|s| s.sounding()).map(|(a, b)| b - a).sum();
     let rate = clip.syllables.len() as f64 / sounding.max(1e-3);
     if clip.sound.is_some() && rate > FASTEST {
-        found.push(odd(format!(
-            "{rate:.0} syllables a second is more than anyone says: is this the script of this sound?"
-        )));
+        found.push(odd(
+            &whose,
+            format!("{rate:.0} syllables a second is more than anyone says: is this the script of this sound?"),
+        ));
     }
     if clip.timing.tier("shapes").is_some() && !clip.syllables.is_empty() {
-        found.push(odd("its tier `shapes` moves the mouth; syllables' times and readings do not".into()));
+        found.push(odd(&whose, "its tier `shapes` moves the mouth; syllables' times and readings do not"));
     }
     if clip.timing.tier("phones").is_some_and(|t| !t.intervals.is_empty()) && clip.syllables_with_phones() == 0 {
         found.push(odd(
-            "its tier `phones` is kept and moves nothing: its names are not those of Pinyin or ARPAbet".into()
+            &whose,
+            "its tier `phones` is kept and moves nothing: its names are not those of Pinyin or ARPAbet",
         ));
     }
     let doubts = clip.doubts();
     if let Some(first) = doubts.first() {
         let text = first.syllable.and_then(|s| clip.syllables.get(s)).map_or("beside the script", |s| s.text.as_str());
-        found.push(odd(format!(
-            "{} of its times to look at, the first at {:.2} s ({text})",
-            counted(doubts.len(), "place"),
-            first.start
-        )));
+        found.push(odd(
+            &whose,
+            format!(
+                "{} of its times to look at, the first at {:.2} s ({text})",
+                counted(doubts.len(), "place"),
+                first.start
+            ),
+        ));
     }
     let unread = clip.syllables.iter().filter(|s| s.lang == Lang::Zh && s.pinyin.is_empty()).count();
     if unread > 0 {
-        found.push(odd(format!("{} without a known reading: write it as 字{{zi4}}", counted(unread, "character"))));
+        found.push(odd(
+            &whose,
+            format!("{} without a known reading: write it as 字{{zi4}}", counted(unread, "character")),
+        ));
     }
     if let Some(pin) = clip.score.pins.iter().find(|p| **p >= clip.syllables.len()) {
-        found.push(odd(format!("`pins` names syllable {pin}, and there are {}", clip.syllables.len())));
+        found.push(odd(&whose, format!("`pins` names syllable {pin}, and there are {}", clip.syllables.len())));
     }
-    found.extend(clip.warnings.iter().map(|w| odd(w.clone())));
+    found.extend(clip.warnings.iter().map(|w| odd(&whose, w)));
     let end = clip.duration();
     let late =
         clip.score.keys.iter().filter(|k| k.time > end + 1e-6 && !matches!(k.value, KeyValue::Emotion(_))).count();
     if late > 0 {
-        found.push(odd(format!("{} after its end", counted(late, "key"))));
+        found.push(odd(&whose, format!("{} after its end", counted(late, "key"))));
     }
     if let Some(over) = clip.intervals().iter().find(|i| i.end > end + 0.05) {
-        found.push(odd(format!("`{}` ends at {:.2} s, after the sound", over.label, over.end)));
+        found.push(odd(&whose, format!("`{}` ends at {:.2} s, after the sound", over.label, over.end)));
     }
     found
+}
+
+fn odd(whose: &str, text: impl Into<Message>) -> Finding {
+    Finding::Odd(text.into().after(whose))
 }
 
 /// So many of something, in words: `1 clip`, `2 clips`.

@@ -8,7 +8,7 @@ use super::label::label_reading;
 use super::manifest::ClipEntry;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
 use super::video;
-use crate::disk::{Fault, Result, inside, read_text};
+use crate::disk::{Fault, Message, Result, Task, inside, message, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
@@ -45,7 +45,7 @@ pub struct Clip {
     /// What the author set.
     pub score: Score,
     /// What is odd but not wrong, for the author to know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Message>,
     /// Checksums of the files that saving writes, as they were read.
     pub(super) seen: Seen,
     /// The script's own syllables, before labels gave other readings.
@@ -117,7 +117,7 @@ impl Clip {
         }
         if let Some(path) = &clip.sound_path {
             let sound = Sound::read(path)?;
-            clip.warnings.extend(sound.warnings.iter().cloned());
+            clip.warnings.extend(sound.warnings.iter().map(|w| Message::from(w.as_str())));
             clip.sound_seconds = sound.duration();
             clip.sound = Some(Arc::new(sound));
         }
@@ -142,7 +142,7 @@ impl Clip {
             // A video that cannot be opened here, for want of ffmpeg, is no reason not to show the rest.
             match clip.source() {
                 Ok(source) => clip.video_seconds = source.and_then(|s| s.duration()).unwrap_or(0.0),
-                Err(fault) => clip.warnings.push(fault.to_string()),
+                Err(fault) => clip.warnings.push(fault.to_message()),
             }
         }
         match file("timing.TextGrid")? {
@@ -151,9 +151,8 @@ impl Clip {
                 let timing = timing::read(&path)?;
                 if clip.is_of_an_older_script(&timing) {
                     clip.carry_over(timing);
-                    clip.warnings.push(
-                        "the script has changed since its times were found: `lianpu align` finds them anew".into(),
-                    );
+                    let changed = "the script has changed since its times were found: ";
+                    clip.warnings.push(message![changed, Task::Align, " finds them anew"]);
                 } else {
                     clip.take_timing(timing).map_err(|f| f.at(&path))?;
                     clip.timing.guessed |= clip.score.guessed;

@@ -8,7 +8,9 @@ use super::clip::SOUNDS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::video::FRAMES_FPS;
 use super::{AlignJob, Lesson, Method, TrackJob};
-use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
+use crate::disk::{
+    Fault, Message, Result, Setting, Task, clean_line, message, plain_name, read_bytes, read_text, write_whole,
+};
 use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
@@ -60,7 +62,7 @@ pub struct Made {
     /// What there is to say of its photo.
     pub warnings: Vec<Warning>,
     /// What there is to say of its recording and its video.
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
     /// How good the calibration of its face is, where it was calibrated.
     pub calibration: Option<Quality>,
 }
@@ -84,22 +86,35 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
     let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some() || new.video.is_some();
     if !has_clip && new.neutral.is_none() {
         return Err(Fault::new("a lesson needs a photo, a recording, times, ratios, or a video")
-            .help("give --neutral PHOTO, --speech FILE --script FILE, --timing FILE, --ratios FILE, or --video FILE")
+            .help(message![
+                "give ",
+                Setting::Neutral,
+                ", ",
+                Setting::Speech,
+                " and ",
+                Setting::Script,
+                ", ",
+                Setting::Timing,
+                ", ",
+                Setting::Ratios,
+                ", or ",
+                Setting::Video
+            ])
             .of_the_call());
     }
     if !new.shots.is_empty() && new.neutral.is_none() && new.video.is_none() {
         return Err(Fault::new("shots of emotions are measured from the neutral face")
-            .help("give --neutral PHOTO too")
+            .help(message!["give ", Setting::Neutral, " too"])
             .of_the_call());
     }
     if new.ratios.is_some() && new.video.is_some() {
         return Err(Fault::new("the ratios of a clip are those of its video, or those of a file")
-            .help("give --video or --ratios")
+            .help(message!["give ", Setting::Video, " or ", Setting::Ratios])
             .of_the_call());
     }
     if new.script.is_some() && !has_clip {
         return Err(Fault::new("a script needs its recording, or its times")
-            .help("give --speech FILE, or leave --script out for now")
+            .help(message!["give ", Setting::Speech, ", or leave ", Setting::Script, " out for now"])
             .of_the_call());
     }
     let parent = match root.parent() {
@@ -111,7 +126,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
     if figure != CARTOON {
         LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
     } else if !has_face {
-        return Err(Fault::new("a cartoon needs a photo").help("give --neutral PHOTO").of_the_call());
+        return Err(Fault::new("a cartoon needs a photo").help(message!["give ", Setting::Neutral]).of_the_call());
     }
     check_inputs(new)?;
     // Before a folder is made: a photo in which no face is found leaves nothing behind.
@@ -189,20 +204,20 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
 
 /// Finds the times of a new lesson in its sound, and says what there is to say of them. A recording that cannot be
 /// aligned is no reason not to make a lesson of it.
-fn find_times(lesson: &mut Lesson) -> Result<Vec<String>> {
+fn find_times(lesson: &mut Lesson) -> Result<Vec<Message>> {
     let wanted: Vec<usize> = (0..lesson.clips.len()).filter(|n| lesson.clips[*n].wants_alignment()).collect();
     let sounds = lesson.clips.iter().filter_map(|c| c.sound.as_ref());
-    let mut notes: Vec<String> = sounds.flat_map(|s| s.quality().remarks()).collect();
+    let mut notes: Vec<Message> = sounds.flat_map(|s| s.quality().remarks()).map(Message::from).collect();
     for (number, found) in AlignJob::of(lesson, &wanted)?.run() {
         match found {
             Ok(found) => {
                 // That it is noisy is among what is said of the sound.
                 let said = found.notes.iter().filter(|n| !matches!(n, Note::Noisy { .. }));
-                notes.extend(said.map(ToString::to_string));
+                notes.extend(said.map(|n| n.to_string().into()));
                 lesson.take_alignment(number, &found);
                 lesson.clips[number].save()?;
             }
-            Err(fault) => notes.push(format!("its times could not be found: {fault}")),
+            Err(fault) => notes.push(fault.to_message().after("its times could not be found: ")),
         }
     }
     Ok(notes)
@@ -219,7 +234,7 @@ fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> 
 }
 
 /// Follows the faces in a new lesson's videos. A video in which that fails is no reason not to make a lesson of it.
-fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Vec<String>> {
+fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Vec<Message>> {
     let mut notes = Vec::new();
     for number in (0..lesson.clips.len()).filter(|n| lesson.clips[*n].wants_tracking()).collect::<Vec<_>>() {
         let job = TrackJob::of(lesson, number, Method::default(), Options::default())?;
@@ -231,11 +246,10 @@ fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>)
                 lesson.clips[number].footage_changed = true;
                 lesson.clips[number].save()?;
             }
-            Err(fault) => notes.push(format!(
-                "the face in its video could not be followed: {}: {}; then `lianpu track`",
-                fault.what(),
-                fault.next_step()
-            )),
+            Err(fault) => {
+                let what = fault.in_a_line().after("the face in its video could not be followed: ");
+                notes.push(what.then("; then ").then(Task::Track));
+            }
         }
     }
     Ok(notes)
@@ -256,9 +270,12 @@ fn neutral(new: &NewLesson) -> Result<Option<(Brought, Created)>> {
     let number = new.neutral_frame.unwrap_or(0);
     let photo = frame_of(video, new.video_fps.unwrap_or(FRAMES_FPS), number)?;
     let created = photo.face(new.anchors).map_err(|f| {
-        Fault::new(format!("frame {number} cannot be the neutral face: {}", f.what()))
-            .at(video)
-            .help("name one that shows it at rest, from the front: --neutral-frame N, or give --neutral PHOTO")
+        Fault::new(format!("frame {number} cannot be the neutral face: {}", f.what())).at(video).help(message![
+            "name one that shows it at rest, from the front: ",
+            Setting::NeutralFrame,
+            ", or give ",
+            Setting::Neutral
+        ])
     })?;
     Ok(Some((photo, created)))
 }
@@ -281,7 +298,7 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
 }
 
 /// Copies what a clip is made of into its folder; what there is to say of that.
-fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<String>> {
+fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<Message>> {
     let mut notes = Vec::new();
     let folder = root.join("clips").join(&clip.name);
     std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
@@ -300,7 +317,7 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<String>> {
     }
     if let Some(path) = &new.ratios {
         let (record, tracks, said) = import::read(path)?;
-        notes.extend(said);
+        notes.extend(said.into_iter().map(Message::from));
         write_whole(&folder.join("ratios.csv"), record.to_csv().as_bytes())?;
         if let Some(tracks) = tracks {
             write_whole(&folder.join("tracks.csv"), tracks.to_csv().as_bytes())?;
@@ -311,7 +328,7 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<String>> {
         if new.speech.is_none() && path.is_file() {
             // A video without a sound track is a video all the same.
             if let Err(fault) = sound_of(path, &folder.join("speech.wav")) {
-                notes.push(format!("the video brings no sound: {}", fault.what()));
+                notes.push(format!("the video brings no sound: {}", fault.what()).into());
             }
         }
     }
@@ -330,7 +347,7 @@ fn of_inputs(fault: &Fault, new: &NewLesson) -> Fault {
         "video" => &new.video,
         shot => &new.shots.iter().find(|(e, _)| e.name() == shot).map(|(_, path)| path.clone()),
     };
-    let mut named = Fault::new(fault.what()).help(fault.next_step());
+    let mut named = Fault::new(fault.what()).help(fault.advice());
     if let Some(path) = original {
         named = named.at(path);
     }

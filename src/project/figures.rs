@@ -5,7 +5,7 @@ use std::path::Path;
 use super::face::FACE_FILE;
 use super::manifest::MANIFEST;
 use super::{LayerEntry, LessonFace};
-use crate::disk::{Fault, Result, inside, read_bytes, read_text};
+use crate::disk::{Fault, Result, Task, inside, message, read_bytes, read_text};
 use crate::figure::cartoon::Style;
 use crate::figure::{AuthorLayer, Cartoon, Figure, LineFigure, MAX_LAYER_BYTES};
 
@@ -28,8 +28,10 @@ pub(super) fn figure(root: &Path, face: Option<&LessonFace>) -> Result<Figure> {
 pub(super) fn cartoon(root: &Path, face: &LessonFace) -> Result<Figure> {
     let points = face.points()?.ok_or_else(|| {
         let help = match face.photo {
-            Some(_) => "`lianpu face PROJECT` finds them".to_owned(),
-            None => format!("put a photo there as faces/{}/neutral.png, or write figure = \"line\"", face.entry.name),
+            Some(_) => message![Task::FindFace, " finds them"],
+            None => {
+                format!("put a photo there as faces/{}/neutral.png, or write figure = \"line\"", face.entry.name).into()
+            }
         };
         Fault::new(format!("the face `{}` has no points yet, so its cartoon cannot be drawn", face.entry.name))
             .at(face.folder.join(FACE_FILE))

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::change::stale;
 use super::save::{checksum, remove, write_changed};
 use super::{Change, Clip, Edit, Lesson, counted};
-use crate::disk::Result;
+use crate::disk::{NextStep, Result, Setting, Task, message};
 use crate::emotion::{Record, Tracks};
 use crate::track::Tracked;
 
@@ -36,10 +36,8 @@ impl Clip {
         let sum = format!("{:08x}", crc32fast::hash(ratios.as_bytes()));
         if self.score.tracked.as_ref().is_some_and(|t| !t.ends_with(&sum)) {
             self.score.tracked = None;
-            self.warnings.push(
-                "its ratios.csv was changed since the face was followed, and stays; `lianpu track` with `--replace` finds it anew"
-                    .into(),
-            );
+            let stays = "its ratios.csv was changed since the face was followed, and stays; ";
+            self.warnings.push(message![stays, NextStep::from(Task::Track).and(Setting::Replace), " finds it anew"]);
         }
     }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::disk::{Fault, Result, clean_line, from_toml, nearest, plain_name, read_text};
+use crate::disk::{Fault, Result, Task, clean_line, from_toml, message, nearest, plain_name, read_text};
 use crate::figure::LayerPlace;
 use crate::pose::MouthPreset;
 use crate::render::MAX_SIDE;
@@ -129,9 +129,11 @@ impl Manifest {
     pub fn read(root: &Path) -> Result<Self> {
         let path = root.join(MANIFEST);
         if !path.is_file() {
-            return Err(Fault::new("there is no lesson here")
-                .at(&path)
-                .help("make one with `lianpu new`, or give the folder that has a lianpu.toml"));
+            return Err(Fault::new("there is no lesson here").at(&path).help(message![
+                "make one with ",
+                Task::New,
+                ", or give the folder that has a lianpu.toml"
+            ]));
         }
         Self::parse(&read_text(&path)?).map_err(|f| f.at(&path))
     }

@@ -12,12 +12,12 @@ pub(super) fn of_clip(clip: &Clip) -> Vec<Finding> {
             "clip {name}: voice at {:.0} dB, noise at {:.0} dB, peaks at {:.1} dB",
             quality.voice_db, quality.noise_db, quality.peak_db
         )));
-        let odd = quality.remarks().into_iter().map(|r| Finding::Odd(format!("clip {name}: its sound: {r}")));
+        let odd = quality.remarks().into_iter().map(|r| Finding::Odd(format!("clip {name}: its sound: {r}").into()));
         found.extend(odd);
     }
     for doubt in clip.to_look_at() {
         let what = clip.told(&doubt);
-        found.push(Finding::Odd(format!("clip {name}: {:.2} to {:.2} s: {what}", doubt.start, doubt.end)));
+        found.push(Finding::Odd(format!("clip {name}: {:.2} to {:.2} s: {what}", doubt.start, doubt.end).into()));
     }
     found
 }

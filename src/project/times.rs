@@ -4,7 +4,7 @@
 use super::Clip;
 use super::doubts::CONFIDENCE;
 use super::label::label_fits;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, Task, message};
 use crate::script::{self, Syllable, System};
 use crate::timeline::Spoken;
 use crate::timing::{self, Interval, Tier, Timing};
@@ -41,10 +41,14 @@ impl Clip {
             Ok(()) => syllables.intervals = tier.spoken().cloned().collect(),
             Err(fault) => {
                 syllables.intervals = self.shared_out(&tier).ok_or(fault)?;
-                self.warnings.push(format!(
-                    "its times are those of words or phrases (tier `{}`), which their syllables share; `lianpu align` with `--clip {}` finds them in the sound",
-                    tier.name, self.entry.name
-                ));
+                self.warnings.push(message![
+                    format!(
+                        "its times are those of words or phrases (tier `{}`), which their syllables share; ",
+                        tier.name
+                    ),
+                    Task::Align.with(Setting::Clip, &self.entry.name),
+                    " finds them in the sound"
+                ]);
             }
         }
         // The tier of syllables may have any name in a file; here it has its own. Words and phrases stay beside it.

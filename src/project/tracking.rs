@@ -7,19 +7,33 @@ use std::path::PathBuf;
 
 use super::video::FRAMES_FPS;
 use super::{Clip, Lesson, LessonFace};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Message, Result, Task, message};
 use crate::emotion::Kept;
 use crate::photo::Photo;
 use crate::track::{self, Options, Source, Tracked};
 
 /// How a face is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// By the person's active appearance model (paper sec. 3).
     #[default]
     Aam,
     /// By regions of eyes and mouth (thesis sec. 6.2).
     Regions,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Aam, Self::Regions];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Aam => "aam",
+            Self::Regions => "regions",
+        }
+    }
 }
 
 /// A clip's video to be followed, apart from its lesson.
@@ -40,7 +54,7 @@ pub struct Followed {
     /// The checksum of what it was found from.
     pub checksum: String,
     /// What there is to say of the calibration.
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
 }
 
 impl TrackJob {
@@ -85,7 +99,7 @@ impl TrackJob {
                 let face = face.as_deref().ok_or_else(|| {
                     Fault::new("the face has no points to find its regions by")
                         .at(&self.face.folder)
-                        .help("`lianpu face` finds them")
+                        .help(message![Task::FindFace, " finds them"])
                 })?;
                 track::by_regions(&source, face, Some(&made.calibration), &self.options, go_on)?
             }
@@ -127,10 +141,16 @@ impl Clip {
         source.frame_at(time).map(Some)
     }
 
-    /// Whether the face in its video is still to be followed.
+    /// Whether the face in its video is still to be followed: it never was, or what was found is gone.
     #[must_use]
     pub fn wants_tracking(&self) -> bool {
-        self.video.is_some() && self.record.is_none() && self.score.tracked.is_none()
+        self.video.is_some() && self.record.is_none()
+    }
+
+    /// Whether a record was found in its video that is not there any more.
+    #[must_use]
+    pub fn lost_its_record(&self) -> bool {
+        self.record.is_none() && self.score.tracked.is_some()
     }
 }
 
@@ -142,8 +162,11 @@ impl Lesson {
     /// When the video cannot be read.
     pub fn is_tracked_anew(&self, number: usize, method: Method, options: &Options) -> Result<bool> {
         let Some(clip) = self.clips.get(number) else { return Ok(false) };
+        if clip.wants_tracking() {
+            return Ok(true);
+        }
         let (Some(before), Some(source)) = (&clip.score.tracked, clip.source()?) else {
-            return Ok(clip.wants_tracking());
+            return Ok(false);
         };
         let folder = self.manifest.face_of(&clip.entry).map(|f| self.root.join("faces").join(&f.name));
         let Some(folder) = folder else { return Ok(false) };

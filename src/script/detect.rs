@@ -6,7 +6,7 @@ use super::english;
 use super::romanised::{self, Written};
 use super::system::System;
 use super::tokens::{Kind, Token};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, message};
 
 /// What was found out about a script.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -122,7 +122,13 @@ fn evidence<'a>(words: impl Iterator<Item = &'a Both<'a>>) -> Result<Option<Syst
             "`{}` is Hanyu Pinyin and `{}` is Tongyong Pinyin: a script is in one of the two",
             h.text, t.text
         ))
-        .help("correct the spelling, or pass --from hanyu or --from tongyong (script_system in a lesson)")),
+        .help(message![
+            "correct the spelling, or give ",
+            Setting::System.of("hanyu"),
+            " or ",
+            Setting::System.of("tongyong"),
+            " (script_system in a lesson)"
+        ])),
         (Some(_), None) => Ok(Some(System::Hanyu)),
         (None, Some(_)) => Ok(Some(System::Tongyong)),
         (None, None) => Ok(None),
@@ -136,9 +142,15 @@ fn ambiguous(text: &str, word: &Both) -> Fault {
     } else {
         format!("`{}` is {hanyu} in Hanyu Pinyin and {tongyong} in Tongyong Pinyin", word.text)
     };
-    Fault::new(format!("{what}, and nothing in the script shows which it is in"))
-        .line(line_of(text, word.at))
-        .help("pass --from hanyu or --from tongyong (script_system in a lesson)")
+    Fault::new(format!("{what}, and nothing in the script shows which it is in")).line(line_of(text, word.at)).help(
+        message![
+            "give ",
+            Setting::System.of("hanyu"),
+            " or ",
+            Setting::System.of("tongyong"),
+            " (script_system in a lesson)"
+        ],
+    )
 }
 
 fn zhuyin(word: Option<&[Written]>) -> String {
@@ -198,7 +210,7 @@ mod tests {
     fn what_both_romanisations_read_differently_is_asked_for() {
         for text in ["ci", "si", "e", "ma\nci4 hao3"] {
             let fault = latin(text).unwrap_err();
-            assert!(fault.next_step().contains("--from"), "{text}: {fault}");
+            assert!(fault.advice().steps().next().is_some(), "{text}: {fault}");
         }
         assert_eq!(latin("ma\nci4 hao3").unwrap_err().line_number(), Some(2));
         assert!(latin("zhong jhong").is_err());

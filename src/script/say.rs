@@ -11,7 +11,7 @@ use super::system::System;
 use super::tokens::{self, Kind, Token};
 use super::words::Phrase;
 use super::{english, han, numbers, numerals, zhuyin};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, message};
 
 /// The syllables of a script, in order, with their mouth shapes (thesis 5.2).
 ///
@@ -163,9 +163,15 @@ impl Say<'_> {
             match possible.as_slice() {
                 [one] => out.push(*one),
                 _ if both.len() > 1 => {
-                    return Err(self
-                        .fault(format!("`{label}` differs in Hanyu and in Tongyong Pinyin"), at)
-                        .help("pass --from hanyu or --from tongyong, or write the reading in Zhuyin"));
+                    return Err(self.fault(format!("`{label}` differs in Hanyu and in Tongyong Pinyin"), at).help(
+                        message![
+                            "give ",
+                            Setting::System.of("hanyu"),
+                            " or ",
+                            Setting::System.of("tongyong"),
+                            ", or write the reading in Zhuyin"
+                        ],
+                    ));
                 }
                 _ => {
                     let run = romanised::word(label, system.unwrap_or(System::Hanyu)).unwrap_or_default();
@@ -197,7 +203,7 @@ impl Say<'_> {
             let name = if latin == System::Hanyu { "Hanyu" } else { "Tongyong" };
             return Err(self
                 .fault(format!("`{written}` is neither {name} Pinyin nor a known English word"), start)
-                .help("correct its spelling, or pass another --from"));
+                .help(message!["correct its spelling, or give ", Setting::System]));
         }
         self.english(written, start)
     }

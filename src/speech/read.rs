@@ -71,10 +71,8 @@ fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
         Kind::Mp3 | Kind::Iso | Kind::Other => {}
     }
     file.seek(SeekFrom::Start(0)).map_err(broken)?;
-    decode::read(file, kind, only).map_err(|fault| match fault.next_step() {
-        "" => fault.help(convert(path)),
-        _ => fault,
-    })
+    decode::read(file, kind, only)
+        .map_err(|fault| if fault.advice().is_empty() { fault.help(convert(path)) } else { fault })
 }
 
 /// Makes sure that it is no longer than what is read.

@@ -11,7 +11,7 @@ use super::overlay::Overlay;
 use super::state::State;
 use crate::disk::Result;
 use crate::project::{AlignJob, Clip, Doubt};
-use crate::speech::{Alignment, Note};
+use crate::speech::Alignment;
 use crate::timing::Interval;
 
 /// What finds times: the job goes in, each wanted clip's number comes out with what was found.
@@ -172,8 +172,10 @@ fn take(state: &mut State, number: usize, of: &Standing, asked: bool, alignment:
     {
         return;
     }
-    let heard_at_all = |n: &&Note| matches!(n, Note::Noisy { .. } | Note::Doubtful);
-    let notes: Vec<String> = alignment.notes.iter().filter(heard_at_all).map(ToString::to_string).collect();
+    let Some(clip) = state.lesson().and_then(|l| l.clips.get(number)) else { return };
+    // The others have a place, and are among the doubts.
+    let whole = clip.alignment_notes(alignment).into_iter().filter(|(at, _)| at.is_none());
+    let notes: Vec<String> = whole.map(|(_, note)| super::wording::worded(&note)).collect();
     let worst = notes.last().cloned();
     if let Some(open) = &mut state.open {
         open.notes.insert(number, notes);

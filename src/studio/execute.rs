@@ -237,7 +237,7 @@ fn on_top(state: &mut State, action: Action) -> Option<Job> {
             cancel.store(true, Ordering::Relaxed);
             state.say("stopping the export…");
         }
-        (Overlay::Help { scrolled, .. }, Action::Scroll(by)) => {
+        (Overlay::Help { scrolled, .. } | Overlay::Notes { scrolled, .. }, Action::Scroll(by)) => {
             *scrolled = (*scrolled as i32 + by).clamp(0, 100) as usize;
         }
         (Overlay::Doubts { .. }, Action::GoThere) => aligning::go_there(state),
@@ -314,7 +314,7 @@ fn known_formats() -> String {
 }
 
 /// The formats that were typed, with a comma between them; what is none is told while it can still be mended.
-fn formats(typed: &str) -> Result<String, String> {
+fn formats(typed: &str) -> Result<Vec<Format>, String> {
     let words: Vec<String> = typed
         .split([' ', ',', '，', '、', ';'])
         .filter(|word| !word.is_empty())
@@ -325,11 +325,11 @@ fn formats(typed: &str) -> Result<String, String> {
     }
     match words.iter().find(|word| Format::ALL.iter().all(|format| format.name() != word.as_str())) {
         Some(word) => Err(format!("`{word}` is no format: {}", known_formats())),
-        None => Ok(words.join(",")),
+        None => Ok(words.iter().filter_map(|word| word.parse().ok()).collect()),
     }
 }
 
-fn start_export(state: &mut State, formats: String) -> Option<Job> {
+fn start_export(state: &mut State, formats: Vec<Format>) -> Option<Job> {
     if state.is_unsaved() {
         save(state);
         if state.is_unsaved() {

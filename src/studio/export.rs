@@ -1,20 +1,25 @@
-//! What the studio asks of an export, and what it hears back. How frames are made and written is not its business:
-//! whoever opens the studio hands in the function.
+//! Exports that the studio asks for. The course of work is that of the command line: [`export_projects`].
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
+use super::overlay::Overlay;
+use super::state::State;
+use super::wording;
 use crate::disk::Result;
+use crate::export::{CourseReport, Format, Observer, Request, Shard, Step, export_projects};
+use crate::project::counted;
 
-/// What is to be exported.
+/// An export to be made.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExportRequest {
-    /// The lesson's folder.
+    /// The project's folder.
     pub project: PathBuf,
-    /// The clip; none for all of them.
+    /// The clip; `None` for all of them.
     pub clip: Option<String>,
-    /// The formats as typed, with commas between them, such as `png` or `png,srt`.
-    pub formats: String,
+    /// The formats.
+    pub formats: Vec<Format>,
 }
 
 /// How far an export is.
@@ -24,9 +29,64 @@ pub struct Progress {
     pub done: u64,
     /// Steps in all; 0 while that is not known.
     pub total: u64,
-    /// What is being made, in a few words.
+    /// The work at hand, in a few words.
     pub what: String,
 }
 
-/// Exports: tells its progress, stops soon after the flag is set, and says in a line what it wrote and where.
-pub type Exporter = Box<dyn Fn(ExportRequest, &dyn Fn(Progress), &AtomicBool) -> Result<String> + Send>;
+/// Exports: reports its progress from any thread, and stops soon after the flag is set. Another one than
+/// [`export`] is for tests.
+pub type Exporter = Box<dyn Fn(ExportRequest, &(dyn Fn(Progress) + Sync), &AtomicBool) -> Result<CourseReport> + Send>;
+
+/// Exports a project from its files into its `export` folder.
+///
+/// # Errors
+/// As [`export_projects`].
+pub fn export(request: ExportRequest, progress: &(dyn Fn(Progress) + Sync), stop: &AtomicBool) -> Result<CourseReport> {
+    let last = Mutex::new((String::new(), u64::MAX));
+    let step = |step: Step<'_>| {
+        let (what, done, total) = match step {
+            Step::Frames(p) => ("frames".to_owned(), p.done.into(), p.of.into()),
+            Step::Whole(whole, p) => (whole.format.name().to_owned(), p.done.into(), p.of.into()),
+            Step::Tracking { clip, done, of } => {
+                (format!("following the face in {clip}"), done as u64, of.unwrap_or_default() as u64)
+            }
+        };
+        // One report a percent: the screen is drawn for each.
+        let percent = (100 * done).checked_div(total).unwrap_or(done / 10);
+        let Ok(mut last) = last.lock() else { return };
+        if last.0 != what || last.1 != percent {
+            *last = (what.clone(), percent);
+            drop(last);
+            progress(Progress { done, total, what });
+        }
+    };
+    let mut export = Request::new(request.formats);
+    export.clip = request.clip;
+    let mut observer = Observer { event: &mut |_| Ok(()), progress: &step, stop };
+    export_projects(&[request.project], &export, Shard::WHOLE, &mut observer)
+}
+
+/// Shows the result of an export: a line at the foot, and its notes in a list on top.
+pub(super) fn exported(state: &mut State, done: Result<CourseReport>) {
+    state.overlays.retain(|o| !matches!(o, Overlay::Export { .. }));
+    let report = match done {
+        Ok(report) => report,
+        Err(fault) => return state.say_fault(&fault),
+    };
+    let count = |of: fn(&crate::export::Report) -> u32| -> usize {
+        report.exported.iter().map(|(_, e)| of(&e.report) as usize).sum()
+    };
+    let (written, there) = (counted(count(|r| r.written), "file"), count(|r| r.kept));
+    if let Some((_, fault)) = report.failed.first() {
+        state.say_fault(fault);
+    } else if report.stopped {
+        state.say(format!("stopped: {written} written, the rest when it is run again"));
+    } else {
+        let folder = report.exported.first().map(|(root, _)| root.join("export")).unwrap_or_default();
+        state.say(format!("{written} written, {there} already there, in {}", folder.display()));
+    }
+    if !report.notes.is_empty() {
+        let lines = report.notes.iter().map(wording::worded).collect();
+        state.overlays.push(Overlay::Notes { title: "Notes on the export".to_owned(), lines, scrolled: 0 });
+    }
+}

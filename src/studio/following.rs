@@ -144,7 +144,7 @@ pub(super) fn found(state: &mut State, root: &Path, clip: usize, found: Result<F
     {
         return;
     }
-    let notes: Vec<String> = followed.notes.into_iter().chain(followed.tracked.notes).collect();
+    let notes: Vec<String> = followed.all_notes().iter().map(super::wording::worded).collect();
     let worst = notes.first().cloned();
     if let Some(open) = &mut state.open {
         open.notes.entry(clip).or_default().extend(notes);

@@ -38,12 +38,13 @@ mod terminal;
 mod typed;
 mod voice;
 mod window;
+mod wording;
 mod work;
 
 pub use action::{Action, Nudge};
 pub use aligning::{Aligner, Aligning, Spotted};
 pub use editor::{Editor, LaneKey, Left};
-pub use export::{ExportRequest, Exporter, Progress};
+pub use export::{ExportRequest, Exporter, Progress, export};
 pub use face_desk::{FaceDesk, Placing};
 pub use keys::{Place, key_table_markdown};
 pub use lane::Lane;

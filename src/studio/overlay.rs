@@ -27,6 +27,15 @@ pub enum Overlay {
         /// Which is chosen.
         chosen: usize,
     },
+    /// Lines to read, scrolled down by so many.
+    Notes {
+        /// The title of the list.
+        title: String,
+        /// The lines, which are folded where the screen is too narrow.
+        lines: Vec<String>,
+        /// Lines scrolled.
+        scrolled: usize,
+    },
     /// A line to type.
     Prompt(Box<Prompt>),
     /// Leave with unsaved changes? What was asked for is done after the answer.
@@ -45,7 +54,7 @@ impl Overlay {
     #[must_use]
     pub const fn place(&self) -> Place {
         match self {
-            Self::Help { .. } => Place::Help,
+            Self::Help { .. } | Self::Notes { .. } => Place::Help,
             Self::Doubts { .. } => Place::Doubts,
             Self::Prompt(_) => Place::Prompt,
             Self::Confirm(_) => Place::Confirm,

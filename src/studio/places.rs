@@ -110,10 +110,7 @@ pub(super) fn take(state: &mut State, text: &str) -> Result<(), String> {
     let number = editor.clip;
     let places = editor.places.get(from..).unwrap_or_default().to_vec();
     let before = lesson.clips[number].syllables.len();
-    let change = lesson.lay_words(number, text, &places).map_err(|fault| {
-        let help = fault.next_step();
-        if help.is_empty() { fault.what().to_owned() } else { format!("{}: {help}", fault.what()) }
-    })?;
+    let change = lesson.lay_words(number, text, &places).map_err(|fault| super::wording::in_a_line(&fault))?;
     if !edits::change(state, change) {
         return Ok(());
     }

@@ -243,8 +243,7 @@ impl State {
 
     /// Says what went wrong: what, and what to do, in one line.
     pub fn say_fault(&mut self, fault: &crate::disk::Fault) {
-        let help = fault.next_step();
-        self.refuse(if help.is_empty() { fault.what().to_owned() } else { format!("{}: {help}", fault.what()) });
+        self.refuse(super::wording::in_a_line(fault));
     }
 }
 

@@ -148,7 +148,7 @@ pub enum Report {
     /// An export goes on.
     Exporting(Progress),
     /// An export has ended.
-    Exported(Result<String>),
+    Exported(Result<crate::export::CourseReport>),
 }
 
 /// What was listened for.
@@ -427,11 +427,7 @@ impl Studio {
             }
             Report::Exported(done) => {
                 self.under_way -= 1;
-                self.state.overlays.retain(|o| !matches!(o, Overlay::Export { .. }));
-                match done {
-                    Ok(said) => self.state.say(said),
-                    Err(fault) => self.state.say_fault(&fault),
-                }
+                super::export::exported(&mut self.state, done);
             }
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::{Tier, Timing, audacity, clock, csv, ctm, cues, decode, json, lab, moho, rhubarb, shapes, textgrid};
-use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
+use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result, Setting, message};
 
 /// A way to write times down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -256,7 +256,7 @@ pub fn writable(timing: &Timing, format: Format) -> Result<()> {
     }
     let nothing = timing.subtitles().is_none_or(|tier| tier.intervals.is_empty());
     if nothing && format.holds_one_tier() {
-        return Err(Fault::new("there is no label to write").help("name another tier by --tier"));
+        return Err(Fault::new("there is no label to write").help(message!["name another tier by ", Setting::Tier]));
     }
     Ok(())
 }

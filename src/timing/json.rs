@@ -39,7 +39,7 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
     let read: TimingText = serde_json::from_str(text).map_err(|error| {
         Fault::new(format!("not times in JSON: {error}"))
             .line(error.line())
-            .help("an object with `duration`, `guessed` and `tiers`, as `convert --to json` writes it")
+            .help("an object with `duration`, `guessed` and `tiers`, as this program writes it")
     })?;
     let mut timing = Timing { duration: checked(read.duration)?, tiers: Vec::new(), guessed: read.guessed };
     for tier in read.tiers {
@@ -47,7 +47,7 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
         for (index, i) in tier.intervals.iter().enumerate() {
             layer.lay(i.start, i.end, &i.label).map_err(|fault| {
                 let what = format!("tier `{}`, interval {}: {}", tier.name, index + 1, fault.what());
-                Fault::new(what).help(fault.next_step())
+                Fault::new(what).help(fault.advice())
             })?;
         }
         let (tier, until) = layer.done();

@@ -7,7 +7,7 @@ use super::measure::Neutral;
 use super::said::ranges;
 use super::{Frame, GoOn, Options, Source, Tracked, stopped};
 use crate::aam::{Fit, Grey, Model};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Message, Result};
 use crate::emotion::Calibration;
 use crate::geometry::Vec2;
 
@@ -45,8 +45,8 @@ pub fn by_aam(
         ));
     };
     let mut tracked = gathered(&instants, &rest);
-    tracked.notes.extend(source.notes().iter().cloned());
-    tracked.notes.extend(eye.turned(&instants));
+    tracked.notes.extend(source.notes().iter().map(|n| n.as_str().into()));
+    tracked.notes.extend(eye.turned(&instants).map(Message::from));
     Ok(tracked)
 }
 

@@ -109,12 +109,15 @@ pub(super) fn gathered(instants: &[Instant], rest: &Rest) -> Tracked {
     let lost: Vec<f64> = instants.iter().filter(|i| i.seen.is_none()).map(|i| i.time).collect();
     if !lost.is_empty() {
         let step = step(instants);
-        tracked.notes.push(format!(
-            "the face is lost in {} of {} frames, and bridged there: {}",
-            lost.len(),
-            instants.len(),
-            ranges(&lost, step)
-        ));
+        tracked.notes.push(
+            format!(
+                "the face is lost in {} of {} frames, and bridged there: {}",
+                lost.len(),
+                instants.len(),
+                ranges(&lost, step)
+            )
+            .into(),
+        );
     }
     tracked
 }

@@ -22,7 +22,7 @@ pub use live::Live;
 pub use regions::by_regions;
 pub use relay::relay;
 
-use crate::disk::Fault;
+use crate::disk::{Fault, Message};
 use crate::emotion::{Choice, Record, Tracks};
 
 /// What was found in a video.
@@ -33,7 +33,7 @@ pub struct Tracked {
     /// Eyes, mouth and head of every frame.
     pub tracks: Tracks,
     /// What there is to say of it: frames lost, weak calibration.
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
 }
 
 /// How ratios are read from shapes.

@@ -29,7 +29,7 @@ fn keys(c: &mut Criterion) {
     }
     wav.finalize().unwrap();
     let state = State::new(folder.path(), Colours::True).unwrap();
-    let mut studio = Studio::new(state, Box::new(|_, _, _| Ok(String::new())));
+    let mut studio = Studio::new(state, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
     let mut terminal = Terminal::new(TestBackend::new(200, 50)).unwrap();
     for key in ["Enter", "Enter"] {
         studio.key(key);

@@ -1,6 +1,5 @@
 //! `lianpu export`.
 
-mod course;
 mod show;
 
 use std::io::Write;
@@ -8,12 +7,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use self::course::{Course, Failed};
+use self::show::Show;
+use super::wording;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
-use crate::export::{Dedupe, Format, FrameSet, Request, Shard, shard_of_array};
+use crate::export::{Dedupe, Event, Format, FrameSet, Observer, Request, Shard, export_projects, shard_of_array};
 use crate::figure::Widths;
-use crate::project::{Output, check_output};
 
 /// Write lessons as frames, subtitles, pages, books, videos and for other programs.
 ///
@@ -79,55 +78,64 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 /// Exports every project and prints where the files are.
 ///
 /// # Errors
-/// When the call cannot be carried out, a lesson cannot be exported, or it was stopped.
+/// When the call cannot be carried out, a project cannot be exported, or it was stopped.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let projects = super::lessons(&args.projects);
     let shard = match args.shard {
         Some(shard) => shard,
         None => {
-            shard_of_array()?.inspect(|s| eprintln!("note: part {s}, as this job array has it")).unwrap_or(Shard::WHOLE)
+            shard_of_array()?.inspect(|s| wording::note(format!("part {s}, as this job array has it"))).unwrap_or(Shard::WHOLE)
         }
     };
-    let request = request_of(args, projects.len() > 1);
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
         // A second signal ends the program at once: every file is whole at any moment.
         let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
         let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
     }
-    check_names(&projects, args)?;
-    let course = Course { request: &request, shard, several: projects.len() > 1, stop: &stop, json: args.json };
-    check_settings(args)?;
-    let mut failed = Failed::default();
-    let mut add = |more: Failed| {
-        failed.count += more.count;
-        failed.of_the_call += more.of_the_call;
+    let several = projects.len() > 1;
+    let show = Show::new(args.json);
+    let mut event = |event: Event<'_>| {
+        show.clear();
+        match event {
+            Event::Note(note) => wording::note(note),
+            Event::Exported(project, exported) => return show.result(project, several, exported, out),
+            // The only project's fault is the call's own.
+            Event::Failed(project, fault) if several => wording::error(Some(&project.display().to_string()), fault),
+            Event::Failed(..) => {}
+        }
+        Ok(())
     };
-    match &args.out {
-        Some(_) => add(course.export(&projects, out)?),
-        // Each in its own folder, with a manifest of its own.
-        None => {
-            for project in &projects {
-                add(course.export(std::slice::from_ref(project), out)?);
-            }
+    let mut observer = Observer { event: &mut event, progress: &|step| show.step(step), stop: &stop };
+    let mut report = export_projects(&projects, &request_of(args), shard, &mut observer)?;
+    show.clear();
+    if report.stopped {
+        return Err(
+            Fault::new("the export was stopped before its end").help("run it again: it goes on where it stopped")
+        );
+    }
+    let count = report.failed.len();
+    match report.failed.pop() {
+        None => Ok(()),
+        Some((_, fault)) if !several => Err(fault),
+        Some((_, last)) => {
+            let fault = Fault::new(format!("{count} of {} projects could not be exported", projects.len()))
+                .help("the reasons are above; run it again when they are mended");
+            let of_the_call = |fault: &Fault| fault.is_of_the_call();
+            let none_fits =
+                count == projects.len() && of_the_call(&last) && report.failed.iter().all(|f| of_the_call(&f.1));
+            Err(if none_fits { fault.of_the_call() } else { fault })
         }
     }
-    if failed.count == 0 {
-        return Ok(());
-    }
-    let fault = Fault::new(format!("{} of {} projects could not be exported", failed.count, projects.len()))
-        .help("the reasons are above; run it again when they are mended");
-    let none_fits = failed.of_the_call as usize == projects.len();
-    Err(if none_fits { fault.of_the_call() } else { fault })
 }
 
-/// What is asked of every lesson.
-pub(super) fn request_of(args: &Args, by_project: bool) -> Request {
+/// The request for every project.
+pub(super) fn request_of(args: &Args) -> Request {
     Request {
-        formats: distinct(&args.formats),
+        formats: args.formats.clone(),
         clip: args.clip.clone(),
         out: args.out.clone(),
-        by_project,
+        by_project: false,
         frames: args.frames.clone().unwrap_or_default(),
         shares: None,
         size: args.size,
@@ -138,42 +146,4 @@ pub(super) fn request_of(args: &Args, by_project: bool) -> Request {
         jobs: args.jobs.into(),
         thesis: args.thesis,
     }
-}
-
-/// What no lesson could be exported with is told once.
-fn check_settings(args: &Args) -> Result<()> {
-    let usual = Output::default();
-    let output = Output { fps: args.fps.unwrap_or(usual.fps), size: args.size.unwrap_or(usual.size) };
-    check_output(&output).map_err(Fault::of_the_call)
-}
-
-/// In the order given, each once.
-fn distinct(formats: &[Format]) -> Vec<Format> {
-    let mut all = Vec::new();
-    for format in formats {
-        if !all.contains(format) {
-            all.push(*format);
-        }
-    }
-    all
-}
-
-/// Projects that are exported into one place need names that differ there.
-fn check_names(projects: &[PathBuf], args: &Args) -> Result<()> {
-    if args.out.is_none() {
-        return Ok(());
-    }
-    let name = |p: &PathBuf| p.canonicalize().ok().and_then(|p| p.file_name().map(|n| n.to_owned()));
-    for (i, project) in projects.iter().enumerate() {
-        if let Some(other) = projects[..i].iter().find(|o| name(o).is_some() && name(o) == name(project)) {
-            return Err(Fault::new(format!(
-                "`{}` and `{}` would be written into the same folder",
-                other.display(),
-                project.display()
-            ))
-            .help("export them one by one, each with its own --out")
-            .of_the_call());
-        }
-    }
-    Ok(())
 }

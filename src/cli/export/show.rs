@@ -11,6 +11,9 @@ use crate::cli::output_fault;
 use crate::disk::Result;
 use crate::export::{Exported, Progress, Step};
 
+const FRAMES: &str = "{msg} {bar:30} {pos}/{len} frames  {per_sec}  {eta} left";
+const TRACKING: &str = "{msg} {wide_bar} {pos}/{len} frames {eta}";
+
 /// Shows one lesson's export.
 pub(super) struct Show {
     json: bool,
@@ -23,11 +26,17 @@ impl Show {
             return Self { json, bar: ProgressBar::hidden() };
         }
         let bar = ProgressBar::new(0);
-        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len} frames  {per_sec}  {eta} left") {
-            bar.set_style(style);
-        }
         bar.enable_steady_tick(Duration::from_millis(200));
         Self { json, bar }
+    }
+
+    /// Begins the bar anew.
+    fn begin(&self, template: &str, message: String) {
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            self.bar.set_style(style);
+        }
+        self.bar.reset();
+        self.bar.set_message(message);
     }
 
     /// Shows a step; may be called from any thread.
@@ -35,11 +44,11 @@ impl Show {
         let (what, clip, Progress { done, of }) = match step {
             Step::Frames(progress) => (None, None, progress),
             Step::Whole(whole, progress) => (Some(whole.format.name()), whole.clip.as_deref(), progress),
+            Step::Tracking { clip, done, of } => return self.tracking(clip, done, of),
         };
         if !self.json {
             if done == 0 {
-                self.bar.reset();
-                self.bar.set_message(what.unwrap_or_default().to_owned());
+                self.begin(FRAMES, what.unwrap_or_default().to_owned());
             }
             self.bar.set_length(of.into());
             self.bar.set_position(done.into());
@@ -54,6 +63,17 @@ impl Show {
             }
             eprintln!("{line}");
         }
+    }
+
+    /// A log has no use for how far a face is followed.
+    fn tracking(&self, clip: &str, done: usize, of: Option<usize>) {
+        if done <= 1 {
+            self.begin(TRACKING, format!("following the face in {clip}"));
+        }
+        if let Some(of) = of {
+            self.bar.set_length(of as u64);
+        }
+        self.bar.set_position(done as u64);
     }
 
     /// Takes the bar away.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quality::Quality;
 use super::{Calibration, Shape, Source};
-use crate::disk::{Fault, Result, from_toml, read_text};
+use crate::disk::{Fault, Message, Result, Task, from_toml, message, read_text};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint, MAX_COORDINATE};
 use crate::geometry::Point;
@@ -93,7 +93,7 @@ impl CalibrationFile {
     /// When it is damaged, of another format, or its numbers cannot be, with the line.
     pub fn parse(text: &str) -> Result<Self> {
         let table: Table = from_toml(text).map_err(|fault| {
-            let told = Fault::new(fault.what()).help(AGAIN);
+            let told = Fault::new(fault.what()).help(again());
             match fault.line_number() {
                 Some(line) => told.line(line),
                 None => told,
@@ -103,19 +103,21 @@ impl CalibrationFile {
         if table.format != FORMAT {
             return Err(Fault::new(format!("format {} is not known to this version", table.format))
                 .line(line("format"))
-                .help(AGAIN));
+                .help(again()));
         }
         let n = table.points;
         if !(3..=MOST).contains(&n) {
-            return Err(Fault::new(format!("a shape cannot have {n} points")).line(line("points")).help(AGAIN));
+            return Err(Fault::new(format!("a shape cannot have {n} points")).line(line("points")).help(again()));
         }
         let mut shapes = Vec::with_capacity(7);
         for emotion in Emotion::ALL {
             let head = format!("[shapes.{emotion}]");
             let Some(shape) = table.shapes.get(&emotion) else {
-                return Err(Fault::new(format!("the shape of {emotion} is missing")).line(line("[shapes")).help(AGAIN));
+                return Err(Fault::new(format!("the shape of {emotion} is missing"))
+                    .line(line("[shapes"))
+                    .help(again()));
             };
-            let fault = |what: String| Fault::new(what).line(line(&head)).help(AGAIN);
+            let fault = |what: String| Fault::new(what).line(line(&head)).help(again());
             if shape.points.len() != n {
                 return Err(fault(format!("the shape of {emotion} has {} points, not {n}", shape.points.len())));
             }
@@ -137,7 +139,7 @@ impl CalibrationFile {
                 let at = text.lines().position(|l| l.starts_with(&key) || l.starts_with(name.as_str()));
                 Fault::new(format!("{what} `{name}` of [binding]"))
                     .line(at.map_or(line("[binding]"), |l| l + 1))
-                    .help(AGAIN)
+                    .help(again())
             };
             let point = FeaturePoint::named(name).ok_or_else(|| fault("there is no feature point"))?;
             let whole: f64 = sum.iter().map(|s| s.1).sum();
@@ -152,11 +154,11 @@ impl CalibrationFile {
                 let at = text.lines().position(|l| l.contains(name.as_str())).map_or(line("[inputs]"), |l| l + 1);
                 return Err(Fault::new(format!("`{name}` has no SHA-256 of 64 hexadecimal digits"))
                     .line(at)
-                    .help(AGAIN));
+                    .help(again()));
             }
         }
         if table.quality.shots.len() != 7 {
-            return Err(Fault::new("[quality] does not tell of seven shots").line(line("[quality]")).help(AGAIN));
+            return Err(Fault::new("[quality] does not tell of seven shots").line(line("[quality]")).help(again()));
         }
         let shapes: [Shape; 7] = shapes.try_into().map_err(|_| Fault::new("there are not seven shapes"))?;
         let calibration = Calibration::new(shapes, Binding::of_rows(n, rows)).map_err(|f| f.line(line("[shapes")))?;
@@ -172,4 +174,6 @@ impl CalibrationFile {
     }
 }
 
-const AGAIN: &str = "run `lianpu calibrate` again";
+fn again() -> Message {
+    message![Task::Calibrate, " makes it anew"]
+}

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::inputs::Inputs;
 use super::marks::Marks;
 use crate::aam::{Annotation, Grey};
-use crate::disk::{Fault, Result, inside, read_bytes, read_text};
+use crate::disk::{Fault, Result, Task, inside, message, read_bytes, read_text};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P, How, Placed};
@@ -99,15 +99,21 @@ impl ShotFiles {
                 files.points[0] = files.annotation(&path, size)?;
                 if files.face.is_none() {
                     let found = find(&seen, &[]).map_err(|refusal| {
-                        Fault::from(refusal).at(folder).help("run `lianpu face PROJECT`, and set the pupils by hand")
+                        Fault::from(refusal).at(folder).help(message![
+                            "use ",
+                            Task::FindFace,
+                            ", and set the pupils by hand"
+                        ])
                     })?;
                     files.named = P::fixed().map(|p| (p, found.points[p.index()].at)).collect();
                 }
             }
             None if files.face.is_none() => {
-                return Err(Fault::new("the points of the neutral photo are not known")
-                    .at(folder)
-                    .help("run `lianpu face PROJECT`, which writes face.toml"));
+                return Err(Fault::new("the points of the neutral photo are not known").at(folder).help(message![
+                    "use ",
+                    Task::FindFace,
+                    ", which writes face.toml"
+                ]));
             }
             None => {}
         }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
-use crate::disk::{Fault, Result, write_whole};
+use crate::disk::{Fault, Message, Result, Task, message, write_whole};
 use crate::photo::sha256;
 use crate::pose::Emotion;
 
@@ -50,9 +50,9 @@ impl Kept {
         }
         let CalibrationFile { calibration, quality, model: sum, inputs, .. } = CalibrationFile::read(&path)?;
         let path = folder.join(MODEL);
-        let again = "run `lianpu calibrate` again";
+        let again = message![Task::Calibrate, " makes it anew"];
         if !path.is_file() {
-            return Err(Fault::new("the model of this calibration is missing").at(&path).help(again));
+            return Err(Fault::new("the model of this calibration is missing").at(&path).help(&again));
         }
         let model = Model::read(&path)?;
         if model.count() != calibration.binding().count() || sha256(&model.to_bytes()) != sum {
@@ -78,7 +78,7 @@ impl Kept {
     ///
     /// # Errors
     /// As [`read`](Self::read) and [`make`](Self::make).
-    pub fn of(folder: &Path) -> Result<(Self, Vec<String>)> {
+    pub fn of(folder: &Path) -> Result<(Self, Vec<Message>)> {
         match Self::read(folder)? {
             Some(kept) if kept.is_of(folder) => Ok((kept, Vec::new())),
             // A calibration lasts, also where its photos are kept elsewhere.
@@ -87,10 +87,12 @@ impl Kept {
             }
             before => {
                 let made = Self::make(folder)?;
-                let note =
-                    "the shots have changed since they were calibrated: `lianpu calibrate` keeps what is found now";
-                let mut notes: Vec<String> = before.map(|_| note.into()).into_iter().collect();
-                notes.extend(made.made.quality.notes.iter().cloned());
+                let note = || {
+                    let found = "the shots have changed since they were calibrated: ";
+                    message![found, Task::Calibrate, " keeps what is found now"]
+                };
+                let mut notes: Vec<Message> = before.map(|_| note()).into_iter().collect();
+                notes.extend(made.made.quality.notes.iter().map(|n| Message::from(n.as_str())));
                 Ok((made, notes))
             }
         }

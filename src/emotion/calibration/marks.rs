@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use serde::Deserialize;
 
-use crate::disk::{Fault, Result, from_toml};
+use crate::disk::{Fault, Result, Task, from_toml, message};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint, How, MAX_COORDINATE, Placed};
 use crate::geometry::Point;
@@ -77,9 +77,11 @@ impl Marks {
                 .help(format!("this version reads format {FORMAT}")));
         }
         if table.photo.len() != 64 || !table.photo.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return Err(Fault::new("`photo` is not 64 hexadecimal digits")
-                .line(line("photo"))
-                .help("move the file aside and run `lianpu calibrate`"));
+            return Err(Fault::new("`photo` is not 64 hexadecimal digits").line(line("photo")).help(message![
+                "move the file aside: ",
+                Task::Calibrate,
+                " writes it anew"
+            ]));
         }
         let known: Vec<FeaturePoint> = Binding::own_points().collect();
         for (name, row) in &table.points {
@@ -103,9 +105,11 @@ impl Marks {
         let mut points = Vec::with_capacity(known.len());
         for p in known {
             let row = table.points.get(&p.name()).ok_or_else(|| {
-                Fault::new(format!("[points] lacks \"{p}\""))
-                    .line(line("[points]"))
-                    .help("put it back, or move the file aside and run `lianpu calibrate`")
+                Fault::new(format!("[points] lacks \"{p}\"")).line(line("[points]")).help(message![
+                    "put it back, or move the file aside: ",
+                    Task::Calibrate,
+                    " writes it anew"
+                ])
             })?;
             points.push(Placed { at: Point::new(row.x, row.y), confidence: row.confidence, how: row.how });
         }

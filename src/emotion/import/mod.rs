@@ -17,7 +17,7 @@ use std::path::Path;
 
 use super::lpr::{Whole, is_lpr};
 use super::{Calibration, Record, Tracks};
-use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
+use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result, Setting, Task, message};
 use frame::Seen;
 
 /// What a file of ratios is.
@@ -136,8 +136,13 @@ fn of_frames(frames: &[Seen], calibration: Option<&Calibration>) -> Result<(Reco
         _ if has_shapes => frame::by_blendshapes(frames, &mut notes)?,
         _ => {
             return Err(Fault::new("the file has the points of a face and nothing that tells its emotions").help(
-                "give the person's calibrated face (`lianpu calibrate` makes it): lianpu convert FILE --to csv --face faces/NAME; \
-                 or have the tracker write action units or blendshapes too",
+                message![
+                    "give the person's calibrated face (made by ",
+                    Task::Calibrate,
+                    "): ",
+                    Task::Convert.with(Setting::Face, "faces/NAME"),
+                    "; or have the tracker write action units or blendshapes too",
+                ],
             ));
         }
     };

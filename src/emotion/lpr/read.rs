@@ -5,7 +5,7 @@ use std::io::{BufReader, ErrorKind, Read};
 use super::coder::Decoder;
 use super::frame::State;
 use super::{HEAD, MAGIC, MAX_FPS, MAX_FRAMES, MAX_PAYLOAD, Moment, VERSION};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, Task, message};
 
 /// Reads a compact record as it arrives: a frame is there as soon as its packet is.
 #[derive(Debug)]
@@ -39,7 +39,11 @@ impl<R: Read> LprReader<R> {
         let mut head = [0; HEAD];
         let got = fill(&mut input, &mut head)?;
         if !head.starts_with(&MAGIC) {
-            let help = "it begins with the bytes 8C 4C 50 52; `lianpu convert FILE --to lpr` makes one";
+            let help = message![
+                "it begins with the bytes 8C 4C 50 52; ",
+                Task::Convert.with(Setting::Format, "lpr"),
+                " makes one"
+            ];
             return Err(Fault::new("this is no compact ratio record").help(help));
         }
         if matches!(got, Got::End) {

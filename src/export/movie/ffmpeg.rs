@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::disk::{Fault, Result, clean_line};
+use crate::disk::{Fault, Result, Setting, clean_line, message};
 
 /// A running ffmpeg; killed when dropped.
 pub(super) struct Ffmpeg {
@@ -103,7 +103,7 @@ impl Ffmpeg {
             return fault.help("this ffmpeg was built without it: install a full one, or export another format");
         }
         if said.contains("No space left") {
-            return fault.help("make room, or choose another place with --out DIR");
+            return fault.help(message!["make room, or choose another place with ", Setting::Out]);
         }
         fault.help("is there room, and does `ffmpeg -version` work?")
     }

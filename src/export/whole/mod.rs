@@ -25,8 +25,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::asked::within;
 use super::parts::{self, Parts};
 use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
+use super::run::elsewhere;
 use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
-use crate::disk::{Result, read_old, write_whole};
+use crate::disk::{Message, Result, read_old, write_whole};
 use crate::project::{Clip, Lesson, Output};
 use crate::render::Escaped;
 use crate::script::System;
@@ -55,7 +56,7 @@ pub struct Written {
     /// Its files.
     pub paths: Vec<PathBuf>,
     /// What the author should know, a line each.
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
     /// How many files were written and kept, and how many bytes.
     pub report: Report,
 }
@@ -175,7 +176,7 @@ pub fn write_wholes(
                 written.report.kept += 1;
             } else {
                 written.notes.extend(ledger.set_aside(&file.path, Some(&file.bytes))?);
-                write_whole(&file.path, &file.bytes).map_err(|f| f.help("choose another place with --out DIR"))?;
+                write_whole(&file.path, &file.bytes).map_err(elsewhere)?;
                 written.report.written += 1;
                 written.report.bytes += file.bytes.len() as u64;
             }
@@ -204,7 +205,7 @@ impl<'a> Workshop<'a> {
         Ok(Self { lesson, request, output, encoder: sound::encoder(), parts: None, sounds: Vec::new() })
     }
 
-    fn make(&mut self, whole: &Whole, notes: &mut Vec<String>) -> Result<Vec<File>> {
+    fn make(&mut self, whole: &Whole, notes: &mut Vec<Message>) -> Result<Vec<File>> {
         let Some(first) = whole.clips.first().copied() else { return Ok(Vec::new()) };
         let lesson = self.lesson;
         let clip = &lesson.clips[first];
@@ -228,7 +229,7 @@ impl<'a> Workshop<'a> {
             Format::Wav => match &clip.sound {
                 Some(sound) => one("wav", sound::wav(sound)?),
                 None => {
-                    notes.push(format!("the clip {} has no sound", clip.entry.name));
+                    notes.push(format!("the clip {} has no sound", clip.entry.name).into());
                     Vec::new()
                 }
             },
@@ -279,7 +280,7 @@ impl<'a> Workshop<'a> {
     }
 
     /// The page of some clips.
-    fn page(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<String> {
+    fn page(&mut self, clips: &[usize], notes: &mut Vec<Message>) -> Result<String> {
         let lesson = self.lesson;
         let mut page = html::Page::default();
         for number in clips {
@@ -301,7 +302,7 @@ impl<'a> Workshop<'a> {
     }
 
     /// The book of some clips.
-    fn book(&mut self, clips: &[usize], notes: &mut Vec<String>) -> Result<Vec<u8>> {
+    fn book(&mut self, clips: &[usize], notes: &mut Vec<Message>) -> Result<Vec<u8>> {
         let lesson = self.lesson;
         let mut chapters = Vec::new();
         for number in clips {
@@ -334,14 +335,14 @@ impl<'a> Workshop<'a> {
     }
 
     /// A sound that readers of books must know: MP3 or AAC. Where no encoder is there, the recording itself may be such.
-    fn sound_of_a_book(&mut self, clip: usize, notes: &mut Vec<String>) -> Result<Option<Encoded>> {
+    fn sound_of_a_book(&mut self, clip: usize, notes: &mut Vec<Message>) -> Result<Option<Encoded>> {
         let Some(sound) = self.sound(clip, &mut Vec::new())? else { return Ok(None) };
         if sound.is_for_books() {
             return Ok(Some((*sound).clone()));
         }
         let own = self.lesson.clips[clip].sound_path.as_deref().and_then(sound::own);
         if own.is_none() {
-            notes.push("there is no `ffmpeg`, and books take no FLAC: the book has no sound".to_owned());
+            notes.push("there is no `ffmpeg`, and books take no FLAC: the book has no sound".into());
         }
         Ok(own)
     }
@@ -359,23 +360,23 @@ impl<'a> Workshop<'a> {
     }
 
     /// The clip's sound as small as it gets here; none where it has none.
-    fn sound(&mut self, clip: usize, notes: &mut Vec<String>) -> Result<Option<Rc<Encoded>>> {
+    fn sound(&mut self, clip: usize, notes: &mut Vec<Message>) -> Result<Option<Rc<Encoded>>> {
         if let Some((_, sound)) = self.sounds.iter().find(|(number, _)| *number == clip) {
             return Ok(Some(Rc::clone(sound)));
         }
         let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
         let (encoded, note) = sound::encoded(sound, self.encoder.as_deref());
         let encoded = Rc::new(encoded);
-        notes.extend(note);
+        notes.extend(note.map(Message::from));
         self.sounds.push((clip, Rc::clone(&encoded)));
         Ok(Some(encoded))
     }
 
-    fn shapes(&self, clip: usize, notes: &mut Vec<String>) -> crate::timing::Timing {
+    fn shapes(&self, clip: usize, notes: &mut Vec<Message>) -> crate::timing::Timing {
         let own = &self.lesson.clips[clip];
         let timing = shapes::shapes(own, self.output.fps, self.lesson.mouths_of(&own.entry));
         if timing.shapes().is_none_or(|t| t.intervals.is_empty()) {
-            notes.push(format!("the clip {} says nothing, so its mouth rests all the time", own.entry.name));
+            notes.push(format!("the clip {} says nothing, so its mouth rests all the time", own.entry.name).into());
         }
         timing
     }

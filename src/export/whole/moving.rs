@@ -6,7 +6,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use super::Written;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, message};
 use crate::drawing::Colour;
 use crate::export::apng::{self, ApngForm, Depth};
 use crate::export::gif::{self, GifForm};
@@ -60,9 +60,11 @@ impl Moving<'_> {
         let mut written = Written { paths: vec![path.to_owned()], ..Written::default() };
         if self.format == Format::Mp4 && !self.is_opaque() {
             let name = &self.clip.entry.name;
-            let note =
-                format!("{name}.mp4: MP4 has no alpha, so it is black where nothing is; WebM keeps it (--to webm)");
-            written.notes.push(note);
+            written.notes.push(message![
+                format!("{name}.mp4: MP4 has no alpha, so it is black where nothing is; WebM keeps it ("),
+                Setting::Format.of("webm"),
+                ")"
+            ]);
         }
         if let Some(entry) = ledger.kept(path, &key) {
             ledger.keep(entry)?;

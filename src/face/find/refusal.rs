@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::disk::{Message, Setting, message};
+
 /// Why no face is given for a photo.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal {
@@ -41,17 +43,20 @@ impl std::error::Error for Refusal {}
 impl Refusal {
     /// What to do about it.
     #[must_use]
-    pub fn help(&self) -> &'static str {
+    pub fn help(&self) -> Message {
         match self {
             Self::NoFace => {
-                "take a photo from the front, upright, the whole head in it; or say where eyes, mouth and chin are: --at, or `o` in the studio"
+                let photo = "take a photo from the front, upright, the whole head in it; or say where eyes, mouth and chin are: ";
+                message![photo, Setting::Anchors]
             }
-            Self::TwoFaces => "cut the photo so that only one of them is in it",
-            Self::TurnedAway(_) => "take a photo in which the person looks straight into the camera",
-            Self::Tilted(_) => "turn the photo so that the eyes are level",
-            Self::TooSmall(_) => "cut the photo closer round the head, or take it from nearer",
+            Self::TwoFaces => "cut the photo so that only one of them is in it".into(),
+            Self::TurnedAway(_) => "take a photo in which the person looks straight into the camera".into(),
+            Self::Tilted(_) => "turn the photo so that the eyes are level".into(),
+            Self::TooSmall(_) => "cut the photo closer round the head, or take it from nearer".into(),
             Self::Unclear => {
-                "take a photo with even light and nothing before the face; or say where eyes, mouth and chin are: --at, or `o` in the studio"
+                let photo =
+                    "take a photo with even light and nothing before the face; or say where eyes, mouth and chin are: ";
+                message![photo, Setting::Anchors]
             }
         }
     }

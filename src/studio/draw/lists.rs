@@ -9,6 +9,7 @@ use crate::project::{Clip, Finding, Lesson};
 use crate::studio::aligning;
 use crate::studio::look::Colours;
 use crate::studio::state::{Open, State};
+use crate::studio::wording;
 
 /// The lessons of the folder.
 pub(super) fn lessons(buffer: &mut Buffer, area: Rect, state: &State) {
@@ -125,8 +126,10 @@ fn findings(buffer: &mut Buffer, area: Rect, findings: &[Finding], state: &State
     for finding in sorted {
         let (mark, style, text) = match finding {
             Finding::Fine(text) => ("✓", Style::new(), text.clone()),
-            Finding::Odd(text) => ("!", warning, text.clone()),
-            Finding::Wrong(fault) => ("✗", state.colours.fault().add_modifier(Modifier::BOLD), fault.to_string()),
+            Finding::Odd(text) => ("!", warning, wording::worded(text)),
+            Finding::Wrong(fault) => {
+                ("✗", state.colours.fault().add_modifier(Modifier::BOLD), fault.worded(&wording::word))
+            }
         };
         for (index, line) in text.lines().flat_map(|l| folded(l.trim(), area.width.saturating_sub(3))).enumerate() {
             if y >= area.bottom() {

@@ -22,6 +22,10 @@ pub(super) fn overlays(buffer: &mut Buffer, area: Rect, layout: Option<&Layout>,
                 help(buffer, area, *of, *scrolled);
                 None
             }
+            Overlay::Notes { title, lines, scrolled } => {
+                notes(buffer, area, title, lines, *scrolled);
+                None
+            }
             Overlay::Doubts { list, chosen } => {
                 doubts(buffer, area, list, *chosen);
                 None
@@ -79,6 +83,27 @@ pub(in crate::studio) fn help(buffer: &mut Buffer, area: Rect, of: Place, scroll
     for ((names, help), y) in rows[first..].iter().zip(inside.y..inside.bottom()) {
         put(buffer, inside.x, y, keys, names, BOLD);
         put_short(buffer, inside.x + keys, y, inside.width.saturating_sub(keys), help, Style::new());
+    }
+}
+
+/// Lines to read, a mark before each.
+fn notes(buffer: &mut Buffer, area: Rect, title: &str, lines: &[String], scrolled: usize) {
+    const WIDEST: u16 = 100;
+    let width = area.width.saturating_sub(8).min(WIDEST);
+    let mut rows: Vec<String> = Vec::new();
+    for line in lines.iter().flat_map(|text| text.lines().take(1).chain(text.lines().skip(1))) {
+        let folded = folded(line.trim(), width.saturating_sub(2));
+        rows.extend(
+            folded.into_iter().enumerate().map(|(n, row)| format!("{}{row}", if n == 0 { "· " } else { "  " })),
+        );
+    }
+    let height = (rows.len() as u16).min(area.height.saturating_sub(4));
+    let first = scrolled.min(rows.len().saturating_sub(usize::from(height)));
+    let more = rows.len() > usize::from(height);
+    let title = if more { format!("{title}: ↑ ↓ for more, Esc closes") } else { format!("{title}: Esc closes") };
+    let inside = boxed(buffer, area, width, height, &title);
+    for (row, y) in rows[first..].iter().zip(inside.y..inside.bottom()) {
+        put_short(buffer, inside.x, y, inside.width, row, Style::new());
     }
 }
 

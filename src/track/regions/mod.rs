@@ -12,7 +12,7 @@ use super::gather::{Instant, Rest, Seen, gathered};
 use super::measure::{Measures, Neutral};
 use super::{Frame, GoOn, Options, Source, Tracked, stopped};
 use crate::aam::{Grey, Similarity};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, Setting, message};
 use crate::emotion::{Calibration, Choice, Decomposition, MouthMoves};
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P};
@@ -57,15 +57,13 @@ pub fn by_regions(
         return Err(Fault::new("no face is found in the video").at(source.path()).help("is it seen from the front?"));
     };
     let mut tracked = gathered(&instants, &rest);
-    tracked.notes.extend(source.notes().iter().cloned());
-    tracked.notes.push(
-        if watch.teller.is_some() {
-            "by regions the ratios are told from eyes and mouth alone; brows are not seen: --by aam sees them"
-        } else {
-            "without a calibration regions tell no emotions: the ratios are neutral"
-        }
-        .into(),
-    );
+    tracked.notes.extend(source.notes().iter().map(|n| n.as_str().into()));
+    tracked.notes.push(if watch.teller.is_some() {
+        let seen = "by regions the ratios are told from eyes and mouth alone; brows are not seen: ";
+        message![seen, Setting::Method.of("aam"), " sees them"]
+    } else {
+        "without a calibration regions tell no emotions: the ratios are neutral".into()
+    });
     Ok(tracked)
 }
 
