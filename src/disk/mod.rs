@@ -1,10 +1,11 @@
-//! Files, safely: whole or not at all, never outside their folder, text made clean as it is read, and one kind of
-//! error that says what is wrong, where, and what to do.
+//! Files, safely: whole or not at all, never outside their folder, text made clean as it is read, outside programs that
+//! end with their handle, and one kind of error that says what is wrong, where, and what to do.
 //!
 //! It knows nothing of what the files mean.
 
 mod fault;
 mod paths;
+mod program;
 mod read;
 mod temporary;
 mod toml;
@@ -12,6 +13,7 @@ mod write;
 
 pub use fault::{Fault, Result};
 pub use paths::{inside, plain_name};
+pub use program::{Ended, Messages, Pipe, Program, Running};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
 pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};
 pub use toml::{from_toml, nearest};

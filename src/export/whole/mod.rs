@@ -31,6 +31,7 @@ use crate::project::{Clip, Lesson, Output};
 use crate::render::Escaped;
 use crate::script::System;
 use crate::timing::MOHO_FPS;
+use crate::track::Ffmpeg;
 use sound::Encoded;
 
 /// What a file is called that all clips are in.
@@ -193,7 +194,7 @@ struct Workshop<'a> {
     lesson: &'a Lesson,
     request: &'a Request,
     output: Output,
-    encoder: Option<PathBuf>,
+    encoder: Option<Ffmpeg>,
     parts: Option<(usize, Rc<Parts>)>,
     sounds: Vec<(usize, Rc<Encoded>)>,
 }
@@ -201,7 +202,7 @@ struct Workshop<'a> {
 impl<'a> Workshop<'a> {
     fn new(lesson: &'a Lesson, request: &'a Request) -> Result<Self> {
         let output = checked_output(lesson, request)?;
-        Ok(Self { lesson, request, output, encoder: sound::encoder(), parts: None, sounds: Vec::new() })
+        Ok(Self { lesson, request, output, encoder: Ffmpeg::on_path(), parts: None, sounds: Vec::new() })
     }
 
     fn make(&mut self, whole: &Whole, notes: &mut Vec<String>) -> Result<Vec<File>> {
@@ -364,7 +365,7 @@ impl<'a> Workshop<'a> {
             return Ok(Some(Rc::clone(sound)));
         }
         let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
-        let (encoded, note) = sound::encoded(sound, self.encoder.as_deref());
+        let (encoded, note) = sound::encoded(sound, self.encoder.as_ref());
         let encoded = Rc::new(encoded);
         notes.extend(note);
         self.sounds.push((clip, Rc::clone(&encoded)));
