@@ -56,12 +56,7 @@ impl Ffmpeg {
     ///
     /// # Errors
     /// When the system cannot start it.
-    pub fn start(
-        &self,
-        level: &str,
-        arguments: impl IntoIterator<Item = OsString>,
-        pipe: Pipe,
-    ) -> io::Result<Running> {
+    pub fn start(&self, level: &str, arguments: impl IntoIterator<Item = OsString>, pipe: Pipe) -> io::Result<Running> {
         let common = ["-nostdin", "-hide_banner", "-loglevel", level].map(OsString::from);
         self.program.start(common.into_iter().chain(arguments), pipe)
     }
