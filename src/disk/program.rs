@@ -158,10 +158,10 @@ impl Running {
         Ok(Ended { status, messages: self.messages() })
     }
 
-    /// As [`ended`](Self::ended); none where `stop` becomes true before, and then it goes on running.
+    /// Like [`ended`](Self::ended); none where `stop` becomes true before, and then it goes on running.
     ///
     /// # Errors
-    /// As [`ended`](Self::ended).
+    /// Those of [`ended`](Self::ended).
     pub fn ended_unless(&mut self, stop: &AtomicBool) -> io::Result<Option<Ended>> {
         self.close();
         loop {
@@ -272,7 +272,7 @@ mod tests {
             Program::find("sh").unwrap().start(["-c", script], pipe).unwrap()
         }
 
-        /// Whether a process is there; one that was killed and waited for is not.
+        /// True while a process is there; one that was killed and waited for is not.
         fn is_alive(process: &str) -> bool {
             shell(&format!("kill -0 {process}"), Pipe::None).ended().unwrap().status.success()
         }

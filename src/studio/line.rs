@@ -11,7 +11,7 @@ const LIMIT: usize = 200;
 #[derive(Debug, Clone, Default)]
 pub struct Line {
     input: Input,
-    /// Whether all of it was proposed and not touched yet: the first letter typed takes its place.
+    /// All of it is a proposal, not touched yet: the first letter typed takes its place.
     proposed: bool,
 }
 
@@ -23,19 +23,19 @@ impl Line {
         Self { proposed: !input.value().is_empty(), input }
     }
 
-    /// Whether the text is a proposal that the next letter replaces.
+    /// True while the text is a proposal that the next letter replaces.
     #[must_use]
     pub fn is_proposed(&self) -> bool {
         self.proposed
     }
 
-    /// What was typed.
+    /// The text of the line.
     #[must_use]
     pub fn text(&self) -> &str {
         self.input.value()
     }
 
-    /// What stands before the caret.
+    /// The text before the caret.
     #[must_use]
     pub fn before_caret(&self) -> &str {
         let text = self.text();

@@ -10,7 +10,7 @@ use crate::track::Ffmpeg;
 /// A running encoder; killed when dropped.
 pub(super) struct Encoder(Running);
 
-/// Whether a video can be made: known before anything else is.
+/// Checks that a video can be made, before anything else is.
 ///
 /// # Errors
 /// When the program is not on the PATH.

@@ -18,13 +18,13 @@ use crate::timeline::Timeline;
 /// Something to play.
 #[derive(Debug, Clone)]
 pub struct Show {
-    /// What it is called.
+    /// Its title.
     pub title: String,
-    /// What happens.
+    /// The score.
     pub timeline: Timeline,
-    /// Who is seen.
+    /// The figure that is drawn.
     pub figure: Figure,
-    /// What is said; may be empty.
+    /// Its syllables in time; may be empty.
     pub captions: Vec<Caption>,
 }
 
@@ -35,7 +35,7 @@ pub struct Caption {
     pub start: f64,
     /// Seconds.
     pub end: f64,
-    /// What is said.
+    /// The syllable as it is written.
     pub text: String,
 }
 

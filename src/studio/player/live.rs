@@ -26,12 +26,12 @@ const FROM_A_FILE: f64 = 2.0;
 /// Blinks of a record without eyes come again after so many seconds.
 const BLINKS: f64 = 600.0;
 
-/// What became of playing a record.
+/// The outcome of playing a record.
 #[derive(Debug)]
 pub struct Played {
     /// Frames that were shown or were already late when they arrived.
     pub frames: u64,
-    /// What was wrong with the record, if it was left because of that.
+    /// The fault of a record that is cut or damaged, where playing reached it.
     pub damage: Option<Fault>,
 }
 
@@ -49,15 +49,15 @@ pub fn play_live(title: &str, figure: Figure, input: impl Read + Send + 'static)
 /// A record at the time of the frames that have arrived.
 pub struct LivePlayback {
     title: String,
-    /// What has arrived and is not due.
+    /// Frames that have arrived and are not due.
     waiting: VecDeque<Moment>,
     shown: Option<Moment>,
     /// The record's time; none before its first frame.
     clock: Option<f64>,
-    /// How long a frame lasts, by the last two.
+    /// The duration of a frame in seconds, by the last two.
     step: f64,
     frames: u64,
-    /// Whether the record has come to its end, and what was wrong there.
+    /// The record's end, once it has arrived, with its fault.
     end: Option<Option<Fault>>,
     /// Stopped, and whether frames wait then instead of passing by.
     stopped: Option<bool>,
@@ -86,7 +86,7 @@ impl LivePlayback {
         }
     }
 
-    /// What became of it.
+    /// The outcome.
     fn played(self) -> Played {
         // Whoever leaves before the damage has seen nothing of it.
         let damage = if self.waiting.is_empty() { self.end.flatten() } else { None };
@@ -193,7 +193,7 @@ impl Playback for LivePlayback {
         })
     }
 
-    /// What has not arrived or has passed cannot be jumped to.
+    /// Stops and goes on; frames that have not arrived or have passed cannot be shown.
     fn act(&mut self, action: Action) -> bool {
         let is_play = action == Action::Play;
         if is_play {
@@ -221,7 +221,7 @@ impl Playback for LivePlayback {
         pose
     }
 
-    /// Where it is: the time, of how long once that is known, and whether the face is there.
+    /// The time, of how long once that is known, and a word where the face is lost.
     fn status(&self) -> String {
         let Some(shown) = &self.shown else { return "waiting for the first frame".to_owned() };
         let lost = if shown.row.confidence <= 0.0 { "face lost   " } else { "" };

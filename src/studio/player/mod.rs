@@ -41,7 +41,7 @@ pub trait Playback {
     /// Carries out an action of the player's keys that moves or stops time; whether there is such an action here.
     fn act(&mut self, action: Action) -> bool;
 
-    /// Whether there is nothing left to show.
+    /// True when there is nothing left to show.
     fn is_over(&self) -> bool;
 
     /// The number of the frame that is shown; none before the first.
@@ -64,7 +64,7 @@ pub struct Player<P> {
     help: bool,
     over: bool,
     redraw: bool,
-    /// Whether the last drawing had no room for anything.
+    /// The last drawing had no room for anything.
     too_small: bool,
     colours: Colours,
     face: FacePicture,
