@@ -106,13 +106,16 @@ fn is_executable(path: &Path) -> bool {
 fn ends_of(mut pipe: impl Read) -> Vec<u8> {
     let mut ends = Vec::new();
     let mut part = [0; 4096];
-    while let Ok(count @ 1..) = pipe.read(&mut part) {
-        ends.extend_from_slice(&part[..count]);
+    loop {
+        match pipe.read(&mut part) {
+            Ok(count @ 1..) => ends.extend_from_slice(&part[..count]),
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Ok(0) | Err(_) => return ends,
+        }
         if ends.len() > RETAINED {
             ends.drain(RETAINED / 2..ends.len() - RETAINED / 2);
         }
     }
-    ends
 }
 
 /// A started program; killed when dropped.
