@@ -1,5 +1,5 @@
-//! Files, safely: whole or not at all, never outside their folder, text made clean as it is read, and one kind of
-//! error that says what is wrong, where, and what to do.
+//! Files, safely: whole or not at all, never outside their folder, text made clean as it is read, outside programs that
+//! end with their handle, and one kind of error that says what is wrong, where, and what to do.
 //!
 //! It knows nothing of what the files mean.
 
@@ -7,6 +7,7 @@ mod fault;
 mod message;
 mod next_step;
 mod paths;
+mod program;
 mod read;
 mod temporary;
 mod toml;
@@ -17,6 +18,7 @@ pub(crate) use message::message;
 pub use message::{Message, Part};
 pub use next_step::{NextStep, Setting, Task};
 pub use paths::{inside, plain_name};
+pub use program::{Ended, Messages, Pipe, Program, Running};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
 pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};
 pub use toml::{from_toml, nearest};

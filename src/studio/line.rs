@@ -1,4 +1,6 @@
-//! A line of text being typed: the text and its caret.
+//! A line of text being typed: `tui-input`'s editing, and what it does not know: a proposal, clean text, a limit.
+
+use tui_input::{Input, InputRequest};
 
 use crate::disk::clean_line;
 
@@ -6,12 +8,10 @@ use crate::disk::clean_line;
 const LIMIT: usize = 200;
 
 /// A line being typed.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default)]
 pub struct Line {
-    text: String,
-    /// Before which letter the caret stands, counted in letters.
-    caret: usize,
-    /// Whether all of it was proposed and not touched yet: the first letter typed takes its place.
+    input: Input,
+    /// All of it is a proposal, not touched yet: the first letter typed takes its place.
     proposed: bool,
 }
 
@@ -19,83 +19,72 @@ impl Line {
     /// A line that proposes a text, the caret behind it. Typing replaces it; moving the caret first keeps it.
     #[must_use]
     pub fn new(text: impl Into<String>) -> Self {
-        let text = text.into();
-        Self { caret: text.chars().count(), proposed: !text.is_empty(), text }
+        let input = Input::new(text.into());
+        Self { proposed: !input.value().is_empty(), input }
     }
 
-    /// Whether the text is a proposal that the next letter replaces.
+    /// True while the text is a proposal that the next letter replaces.
     #[must_use]
     pub fn is_proposed(&self) -> bool {
         self.proposed
     }
 
-    /// What was typed.
+    /// The text of the line.
     #[must_use]
     pub fn text(&self) -> &str {
-        &self.text
+        self.input.value()
     }
 
-    /// What stands before the caret.
+    /// The text before the caret.
     #[must_use]
     pub fn before_caret(&self) -> &str {
-        &self.text[..self.byte(self.caret)]
+        let text = self.text();
+        let end = text.char_indices().nth(self.input.cursor()).map_or(text.len(), |(at, _)| at);
+        &text[..end]
     }
 
     /// Puts text in; what could act on a terminal is left out.
     pub fn put(&mut self, text: &str) {
         self.drop_proposal();
-        let clean: String = if text == " " { " ".into() } else { clean_line(text, LIMIT) };
-        let room = LIMIT.saturating_sub(self.text.chars().count());
-        let clean: String = clean.chars().take(room).collect();
-        self.text.insert_str(self.byte(self.caret), &clean);
-        self.caret += clean.chars().count();
+        let clean = if text == " " { " ".into() } else { clean_line(text, LIMIT) };
+        let room = LIMIT.saturating_sub(self.text().chars().count());
+        for letter in clean.chars().take(room) {
+            self.input.handle(InputRequest::InsertChar(letter));
+        }
     }
 
     /// Takes the letter before the caret away.
     pub fn rub(&mut self) {
         self.drop_proposal();
-        if self.caret > 0 {
-            self.caret -= 1;
-            self.text.remove(self.byte(self.caret));
-        }
+        self.input.handle(InputRequest::DeletePrevChar);
     }
 
     /// Takes the letter after the caret away.
     pub fn rub_ahead(&mut self) {
         self.drop_proposal();
-        let at = self.byte(self.caret);
-        if at < self.text.len() {
-            self.text.remove(at);
-        }
+        self.input.handle(InputRequest::DeleteNextChar);
     }
 
     /// Takes everything before the caret away.
     pub fn rub_line(&mut self) {
         self.proposed = false;
-        self.text.replace_range(..self.byte(self.caret), "");
-        self.caret = 0;
+        self.input.handle(InputRequest::DeleteFromStart);
     }
 
     /// Moves the caret by so many letters, as far as there are any.
     pub fn move_caret(&mut self, by: i32) {
         self.proposed = false;
-        let moved = if by < 0 {
-            self.caret.saturating_sub(by.unsigned_abs() as usize)
-        } else {
-            self.caret.saturating_add(by.unsigned_abs() as usize)
-        };
-        self.caret = moved.min(self.text.chars().count());
+        let step = if by < 0 { InputRequest::GoToPrevChar } else { InputRequest::GoToNextChar };
+        let mut left = by.unsigned_abs();
+        while left > 0 && self.input.handle(step).is_some() {
+            left -= 1;
+        }
     }
 
     fn drop_proposal(&mut self) {
         if std::mem::take(&mut self.proposed) {
-            self.text.clear();
-            self.caret = 0;
+            self.input.reset();
         }
-    }
-
-    fn byte(&self, letter: usize) -> usize {
-        self.text.char_indices().nth(letter).map_or(self.text.len(), |(at, _)| at)
     }
 }
 
@@ -117,6 +106,17 @@ mod tests {
         line.move_caret(1);
         line.rub_line();
         assert_eq!((line.text(), line.before_caret()), ("han", ""));
+    }
+
+    #[test]
+    fn the_caret_steps_over_what_is_seen_as_one_letter() {
+        let mut line = Line::new("臉🇹🇼");
+        line.move_caret(-1);
+        assert_eq!(line.before_caret(), "臉");
+        line.rub_ahead();
+        line.put("👍🏽");
+        line.rub();
+        assert_eq!(line.text(), "臉");
     }
 
     #[test]

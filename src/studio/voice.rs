@@ -10,6 +10,7 @@ use std::thread;
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use tempfile::NamedTempFile;
 
+use crate::disk::Program;
 use crate::speech::Sound;
 
 /// Players that are known, the quickest to begin first, with what they are given before the file.
@@ -45,12 +46,10 @@ impl Voice {
     /// The player of this computer; none where none is installed or the terminal is somewhere else.
     pub fn found() -> Option<Self> {
         let is_remote = ["SSH_CONNECTION", "SSH_TTY", "SSH_CLIENT"].iter().any(|v| std::env::var_os(v).is_some());
-        let path = std::env::var_os("PATH").filter(|_| !is_remote)?;
-        let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
-        PLAYERS.iter().find_map(|(name, options)| {
-            let program = folders.iter().map(|f| f.join(name)).find(|p| p.is_file())?;
-            Some(Self::of(program, options))
-        })
+        if is_remote {
+            return None;
+        }
+        PLAYERS.iter().find_map(|(name, options)| Some(Self::of(Program::find(name)?.path().to_owned(), options)))
     }
 
     fn of(program: PathBuf, options: &'static [&'static str]) -> Self {

@@ -12,7 +12,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 
-use self::ffmpeg::Ffmpeg;
+use self::ffmpeg::Encoder;
 pub(super) use self::ffmpeg::is_there;
 use self::yuv::Planes;
 use super::cels::{Area, changed, pixels};
@@ -21,6 +21,7 @@ use super::stream::{Frames, Outcome, Rate, Watch};
 use crate::disk::{Fault, Result, clean_line, put_whole};
 use crate::speech::Sound;
 use crate::timing::{self, Tier, Timing};
+use crate::track::Ffmpeg;
 
 /// What a video is packed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,7 +91,7 @@ pub fn write(
         captions: captions.as_ref().map(|f| f.path()),
         title: film.title,
     };
-    let mut program = Ffmpeg::start(&arguments.list(draft.path()))?;
+    let mut program = Encoder::start(arguments.list(draft.path()))?;
     let mut shown = Vec::new();
     for n in 0..count {
         if watch.is_stopped() {
@@ -150,10 +151,10 @@ impl Arguments<'_> {
         add(&format!("-f rawvideo -pix_fmt {pixels} -video_size {width}x{height}"));
         add(&format!("-framerate {}/{} -i pipe:0", rate.frames, rate.seconds));
         if let Some(sound) = self.sound {
-            list.extend(["-f".into(), "wav".into(), "-i".into(), ffmpeg::file(sound)]);
+            list.extend(["-f".into(), "wav".into(), "-i".into(), Ffmpeg::file(sound)]);
         }
         if let Some(captions) = self.captions {
-            list.extend(["-f".into(), "webvtt".into(), "-i".into(), ffmpeg::file(captions)]);
+            list.extend(["-f".into(), "webvtt".into(), "-i".into(), Ffmpeg::file(captions)]);
         }
         let mut add = |words: &str| list.extend(words.split(' ').map(OsString::from));
         add("-map 0:v");
@@ -187,7 +188,7 @@ impl Arguments<'_> {
             list.extend(["-metadata".into(), format!("title={title}").into()]);
         }
         let format = self.container.ending().trim_start_matches('.');
-        list.extend(["-f".into(), format.into(), ffmpeg::file(out)]);
+        list.extend(["-f".into(), format.into(), Ffmpeg::file(out)]);
         list
     }
 }

@@ -32,6 +32,7 @@ use crate::project::{Clip, Lesson, Output};
 use crate::render::Escaped;
 use crate::script::System;
 use crate::timing::MOHO_FPS;
+use crate::track::Ffmpeg;
 use sound::Encoded;
 
 /// What a file is called that all clips are in.
@@ -194,7 +195,7 @@ struct Workshop<'a> {
     lesson: &'a Lesson,
     request: &'a Request,
     output: Output,
-    encoder: Option<PathBuf>,
+    encoder: Option<Ffmpeg>,
     parts: Option<(usize, Rc<Parts>)>,
     sounds: Vec<(usize, Rc<Encoded>)>,
 }
@@ -202,7 +203,7 @@ struct Workshop<'a> {
 impl<'a> Workshop<'a> {
     fn new(lesson: &'a Lesson, request: &'a Request) -> Result<Self> {
         let output = checked_output(lesson, request)?;
-        Ok(Self { lesson, request, output, encoder: sound::encoder(), parts: None, sounds: Vec::new() })
+        Ok(Self { lesson, request, output, encoder: Ffmpeg::on_path(), parts: None, sounds: Vec::new() })
     }
 
     fn make(&mut self, whole: &Whole, notes: &mut Vec<Message>) -> Result<Vec<File>> {
@@ -365,7 +366,7 @@ impl<'a> Workshop<'a> {
             return Ok(Some(Rc::clone(sound)));
         }
         let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
-        let (encoded, note) = sound::encoded(sound, self.encoder.as_deref());
+        let (encoded, note) = sound::encoded(sound, self.encoder.as_ref());
         let encoded = Rc::new(encoded);
         notes.extend(note.map(Message::from));
         self.sounds.push((clip, Rc::clone(&encoded)));

@@ -1,11 +1,12 @@
 //! A clip's sound as a file: WAV always, and small where an encoder is there.
 
+use std::ffi::OsString;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Pipe, Result};
 use crate::speech::Sound;
+use crate::track::Ffmpeg;
 
 /// Bits a second of what is encoded: speech through one channel is clean from here on.
 const BITS: &str = "48k";
@@ -69,17 +70,10 @@ fn whole(sound: &Sound) -> impl Iterator<Item = i16> + '_ {
     sound.samples.iter().map(|s| (f64::from(*s) * 32_768.0).round().clamp(-32_768.0, 32_767.0) as i16)
 }
 
-/// The encoder that is there: `ffmpeg` on the path.
-pub(super) fn encoder() -> Option<PathBuf> {
-    let path = std::env::var_os("PATH")?;
-    let name = if cfg!(windows) { "ffmpeg.exe" } else { "ffmpeg" };
-    std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
-}
-
 /// The sound as MP3, which every browser and reading system plays; as FLAC, which is larger, where there is no encoder
 /// or it fails, and then why, in a line.
-pub(super) fn encoded(sound: &Sound, encoder: Option<&Path>) -> (Encoded, Option<String>) {
-    let why = match encoder.map(|program| mp3(sound, program)) {
+pub(super) fn encoded(sound: &Sound, encoder: Option<&Ffmpeg>) -> (Encoded, Option<String>) {
+    let why = match encoder.map(|encoder| mp3(sound, encoder)) {
         Some(Ok(bytes)) => return (Encoded { mime: "audio/mpeg", extension: "mp3", bytes }, None),
         Some(Err(fault)) => fault.what().to_owned(),
         None => "there is no `ffmpeg`".to_owned(),
@@ -92,26 +86,23 @@ pub(super) fn encoded(sound: &Sound, encoder: Option<&Path>) -> (Encoded, Option
 
 /// Through files, because the length that makes a player exact stands at the beginning of an MP3 and is known at its
 /// end.
-fn mp3(sound: &Sound, program: &Path) -> Result<Vec<u8>> {
+fn mp3(sound: &Sound, encoder: &Ffmpeg) -> Result<Vec<u8>> {
     let folder = tempfile::tempdir().map_err(|e| Fault::new(format!("no temporary folder: {e}")))?;
     let (from, to) = (folder.path().join("sound.wav"), folder.path().join("sound.mp3"));
     std::fs::write(&from, wav(sound)?).map_err(|e| Fault::io("cannot write it", &from, e))?;
     let rate = sound.rate.min(RATE).to_string();
-    let ran = Command::new(program)
-        .args(["-nostdin", "-v", "error", "-y", "-i"])
-        .arg(&from)
-        .args(["-map_metadata", "-1", "-ac", "1", "-ar", &rate, "-c:a", "libmp3lame", "-b:a", BITS])
-        // The same bytes whenever the same program encodes the same sound.
-        .args(["-fflags", "+bitexact", "-flags:a", "+bitexact", "-id3v2_version", "0", "-threads", "1", "-f", "mp3"])
-        .arg(&to)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .output()
-        .map_err(|e| Fault::io("cannot run it", program, e))?;
-    let said = String::from_utf8_lossy(&ran.stderr);
-    let why = said.lines().next().map_or_else(|| ran.status.to_string(), str::to_owned);
+    let mut arguments = vec!["-y".into(), "-i".into(), Ffmpeg::file(&from)];
+    let plain = ["-map_metadata", "-1", "-ac", "1", "-ar", &rate, "-c:a", "libmp3lame", "-b:a", BITS];
+    // The same bytes whenever the same program encodes the same sound.
+    let exact = ["-fflags", "+bitexact", "-flags:a", "+bitexact", "-id3v2_version", "0", "-threads", "1", "-f", "mp3"];
+    arguments.extend(plain.into_iter().chain(exact).map(OsString::from));
+    arguments.push(Ffmpeg::file(&to));
+    let running = encoder.start("error", arguments, Pipe::None);
+    let ended = running.and_then(|mut running| running.ended());
+    let ended = ended.map_err(|e| Fault::io("cannot run it", encoder.path(), e))?;
+    let why = ended.messages.lines().into_iter().next().unwrap_or_else(|| ended.status.to_string());
     let failed = || Fault::new(format!("ffmpeg failed: {why}"));
-    if !ran.status.success() {
+    if !ended.status.success() {
         return Err(failed());
     }
     std::fs::read(&to).ok().filter(|bytes| !bytes.is_empty()).ok_or_else(failed)

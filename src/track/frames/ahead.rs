@@ -6,7 +6,7 @@ use std::thread::JoinHandle;
 
 use crossbeam_channel::{Receiver, bounded};
 
-use super::ffmpeg::Running;
+use super::ffmpeg::Reading;
 use super::{Frame, folder};
 use crate::disk::{Fault, Result};
 
@@ -15,7 +15,7 @@ use crate::disk::{Fault, Result};
 pub struct Frames {
     coming: Option<Receiver<Result<Frame>>>,
     decoder: Option<JoinHandle<()>>,
-    running: Option<Arc<Mutex<Running>>>,
+    running: Option<Arc<Mutex<Reading>>>,
     ended: bool,
 }
 
@@ -27,7 +27,7 @@ impl Frames {
     /// What `next` gives until it gives none or a fault, decoded on another thread. A frame takes about `bytes`.
     pub(super) fn of(
         bytes: usize,
-        running: Option<Running>,
+        running: Option<Reading>,
         mut next: impl FnMut() -> Result<Option<Frame>> + Send + 'static,
     ) -> Self {
         let (give, coming) = bounded((WAITING / bytes.max(1)).clamp(1, MOST));
