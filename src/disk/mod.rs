@@ -4,6 +4,7 @@
 //! It knows nothing of what the files mean.
 
 mod fault;
+mod nearest;
 mod paths;
 mod read;
 mod temporary;
@@ -11,8 +12,9 @@ mod toml;
 mod write;
 
 pub use fault::{Fault, Result};
+pub use nearest::{nearest, suggestion};
 pub use paths::{inside, plain_name};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
 pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};
-pub use toml::{from_toml, nearest};
+pub use toml::from_toml;
 pub use write::{Lock, put_whole, replace, write_whole};
