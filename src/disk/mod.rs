@@ -3,6 +3,7 @@
 //!
 //! It knows nothing of what the files mean.
 
+mod csv;
 mod fault;
 mod nearest;
 mod paths;
@@ -11,6 +12,7 @@ mod temporary;
 mod toml;
 mod write;
 
+pub(crate) use csv::{CsvRow, CsvTable};
 pub use fault::{Fault, Result};
 pub use nearest::{nearest, suggestion};
 pub use paths::{inside, plain_name};
