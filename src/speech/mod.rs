@@ -7,6 +7,7 @@ pub mod align;
 mod alignment;
 mod decimate;
 mod decode;
+mod fourier;
 mod iso;
 mod kind;
 mod levels;
