@@ -25,6 +25,7 @@ mod sounding;
 mod spectrogram;
 mod wav;
 mod wav_form;
+mod wav_writer;
 
 pub use align::align;
 pub use alignment::{Alignment, Note, Pin, SURE, SpokenPhone, SpokenSyllable, Take};
@@ -34,3 +35,4 @@ pub use quality::Quality;
 pub use resample::Resampled;
 pub use sound::Sound;
 pub use spectrogram::Spectrogram;
+pub use wav_writer::write_wav;
