@@ -74,7 +74,8 @@ fn every_room_opens_by_saying_what_it_owns() {
 fn speaks_of_the_command_line(line: &str) -> bool {
     let texts = line.split('"').skip(1).step_by(2);
     texts.into_iter().any(|text| {
-        let flag = |word: &str| word.strip_prefix("--").is_some_and(|w| w.starts_with(|c: char| c.is_ascii_lowercase()));
+        let flag =
+            |word: &str| word.strip_prefix("--").is_some_and(|w| w.starts_with(|c: char| c.is_ascii_lowercase()));
         text.contains("`lianpu ") || text.split([' ', '(', '`']).any(flag)
     })
 }

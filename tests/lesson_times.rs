@@ -132,7 +132,11 @@ fn a_corrected_script_is_aligned_anew_and_keeps_what_a_hand_set() {
     std::fs::write(root.join("clips/hello/script.txt"), "您好。").unwrap();
     let mut lesson = Lesson::open(&root).unwrap();
     assert!(lesson.clips[0].wants_alignment());
-    assert!(lesson.clips[0].warnings.iter().any(|w| w.to_string().contains("has changed")), "{:?}", lesson.clips[0].warnings);
+    assert!(
+        lesson.clips[0].warnings.iter().any(|w| w.to_string().contains("has changed")),
+        "{:?}",
+        lesson.clips[0].warnings
+    );
     align(&mut lesson);
     assert!((times(&lesson)[0].1 - 0.7).abs() < 1e-6, "{:?}", times(&lesson));
     assert_eq!(lesson.clips[0].score.pins, [0]);

@@ -7,8 +7,8 @@ mod studio_bench;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use lianpu::export::{CourseReport, Format};
 use lianpu::disk::Fault;
+use lianpu::export::{CourseReport, Format};
 use lianpu::project::Lesson;
 use lianpu::studio::{Colours, ExportRequest, Exporter, Player, Progress, Show, State, Studio};
 use ratatui::Terminal;
@@ -90,7 +90,8 @@ fn what_a_lost_connection_left_in_the_journal_is_brought_back() {
     bench.keys("] ]");
     let Bench { studio, dir } = bench;
     drop(studio);
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
+    let studio =
+        Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
     let mut bench = Bench { studio, dir };
     bench.keys("Enter");
     assert!(bench.message().contains("2 unsaved changes"), "{}", bench.message());
@@ -130,7 +131,10 @@ fn zooming_in_spreads_the_syllables_and_fit_shows_all_again() {
 #[test]
 fn an_export_shows_how_far_it_is_and_can_be_stopped() {
     let exporter: Exporter = Box::new(|request: ExportRequest, progress, cancel: &AtomicBool| {
-        assert_eq!((request.clip.as_deref(), request.formats.as_slice()), (Some("nihao"), &[Format::Png, Format::Srt][..]));
+        assert_eq!(
+            (request.clip.as_deref(), request.formats.as_slice()),
+            (Some("nihao"), &[Format::Png, Format::Srt][..])
+        );
         progress(Progress { done: 3, total: 40, what: "frames".into() });
         for _ in 0..500 {
             if cancel.load(Ordering::Relaxed) {
@@ -160,7 +164,8 @@ fn an_export_shows_how_far_it_is_and_can_be_stopped() {
 fn a_damaged_lesson_shows_what_is_wrong_and_where() {
     let dir = tempfile::tempdir().unwrap();
     lesson(&dir.path().join("nihao"), Some(TIMES), &[("score.toml", "[[key]]\ntrack = \"mouht\"\n")]);
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
+    let studio =
+        Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
     let mut bench = Bench { studio, dir };
     bench.keys("Enter Enter Enter s e u");
     let screen = bench.screen(80, 24);
@@ -207,7 +212,8 @@ fn where_nothing_can_be_seen_no_key_but_quitting_does_anything_and_changes_wait_
     assert!(bench.studio.state.leaving);
     let Bench { studio, dir } = bench;
     drop(studio);
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
+    let studio =
+        Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
     let mut bench = Bench { studio, dir };
     assert!(bench.keys("Enter").message().contains("brought back 1 unsaved change from last time"));
 }

@@ -76,7 +76,10 @@ fn a_newer_search_takes_the_place_of_the_one_that_waits() {
         count.fetch_add(1, Ordering::SeqCst);
         vec![(0, Ok(found()))]
     });
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let studio = Studio::new(
+        State::new(dir.path(), Colours::None).unwrap(),
+        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
+    );
     let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
     bench.keys("Enter Enter");
     for _ in 0..5 {
@@ -97,7 +100,10 @@ fn a_search_asked_for_in_another_lesson_waits_for_the_first_ones_end() {
         opened.lock().unwrap().recv().unwrap();
         vec![(0, Ok(found()))]
     });
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let studio = Studio::new(
+        State::new(dir.path(), Colours::None).unwrap(),
+        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
+    );
     let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
     let open = |bench: &mut Bench| {
         bench.studio.key("Enter");
@@ -361,7 +367,10 @@ fn without_script() -> Bench {
     let dir = tempfile::tempdir().unwrap();
     lesson(&dir.path().join("nihao"), None, &[]);
     std::fs::remove_file(dir.path().join("nihao/clips/nihao/script.txt")).unwrap();
-    let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let studio = Studio::new(
+        State::new(dir.path(), Colours::None).unwrap(),
+        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
+    );
     let mut bench = Bench { studio, dir };
     bench.keys("Enter Enter");
     let editor = bench.studio.state.editor.as_mut().unwrap();

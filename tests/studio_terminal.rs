@@ -382,7 +382,11 @@ fn changed_lesson_without_times(parent: &Path) -> std::path::PathBuf {
     let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao");
     let root = parent.join("nihao");
     for (path, bytes) in files_in(&sample) {
-        if path.starts_with("export") || path.starts_with('.') || path.ends_with("score.toml") || path.ends_with("TextGrid") {
+        if path.starts_with("export")
+            || path.starts_with('.')
+            || path.ends_with("score.toml")
+            || path.ends_with("TextGrid")
+        {
             continue;
         }
         std::fs::create_dir_all(root.join(&path).parent().unwrap()).unwrap();

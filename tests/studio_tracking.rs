@@ -44,7 +44,10 @@ fn copied(photos: &[&str], frames: &[Vec<u8>]) -> tempfile::TempDir {
 }
 
 fn bench(dir: tempfile::TempDir, colours: Colours) -> Bench {
-    let studio = Studio::new(State::new(dir.path(), colours).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let studio = Studio::new(
+        State::new(dir.path(), colours).unwrap(),
+        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
+    );
     Bench { studio, dir }
 }
 
@@ -110,8 +113,9 @@ fn shots_are_walked_calibrated_corrected_undone_saved_and_read_back() {
     assert_eq!((set, after.photo == before.photo), (2, true), "the point and its mirror image");
     let read = Lesson::read(&bench.dir.path().join("nihao")).unwrap();
     assert_eq!(read.faces[0].shot(Emotion::Happy).unwrap().marks.as_ref(), Some(&after));
-    let odd =
-        check(&read.root).into_iter().any(|f| matches!(f, Finding::Odd(t) if t.to_string().contains("since it was calibrated")));
+    let odd = check(&read.root)
+        .into_iter()
+        .any(|f| matches!(f, Finding::Odd(t) if t.to_string().contains("since it was calibrated")));
     assert!(odd, "check says that the calibration is of other points");
 
     // What a hand has set stays through a calibration, and is what it goes by.

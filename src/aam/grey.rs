@@ -2,13 +2,8 @@
 
 use std::path::Path;
 
-use zune_jpeg::JpegDecoder;
-use zune_jpeg::zune_core::bytestream::ZCursor;
-use zune_jpeg::zune_core::colorspace::ColorSpace;
-use zune_jpeg::zune_core::options::DecoderOptions;
-
 use crate::disk::{Result, read_bytes};
-use crate::photo::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, Photo, Plane};
+use crate::photo::{MAX_PHOTO_BYTES, Photo, Plane, jpeg_luma};
 
 /// Luma (Rec. 601 on sRGB values) of 8 bits, row by row from the top; pixel centres are whole numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -54,7 +49,7 @@ impl Grey {
     /// As [`Photo::decode`].
     pub fn decode(bytes: &[u8]) -> Result<Self> {
         match jpeg_luma(bytes) {
-            Some(grey) => Ok(grey),
+            Some((width, height, pixels)) => Ok(Self::new(width, height, pixels)),
             None => Ok(Self::of(&Photo::decode(bytes)?)),
         }
     }
@@ -90,24 +85,4 @@ impl Grey {
     pub fn to_photo(&self) -> Photo {
         Photo::new(self.width, self.height, self.pixels.iter().map(|v| [*v; 3]).collect())
     }
-}
-
-/// The luma of a whole JPEG file that stands upright and holds grey or YCbCr; none of any other.
-fn jpeg_luma(bytes: &[u8]) -> Option<Grey> {
-    if !bytes.starts_with(&[0xFF, 0xD8, 0xFF]) || !bytes.ends_with(&[0xFF, 0xD9]) {
-        return None;
-    }
-    let side = MAX_PHOTO_SIDE as usize;
-    let options =
-        DecoderOptions::default().jpeg_set_out_colorspace(ColorSpace::Luma).set_max_width(side).set_max_height(side);
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-    decoder.decode_headers().ok()?;
-    let plain = matches!(decoder.input_colorspace(), Some(ColorSpace::YCbCr | ColorSpace::Luma));
-    // A turned photo says so in its EXIF. And a header may promise far more pixels than a file can hold.
-    let (width, height) = decoder.dimensions()?;
-    if !plain || decoder.exif().is_some() || width * height > (4 << 20) + 2000 * bytes.len() {
-        return None;
-    }
-    let pixels = decoder.decode().ok()?;
-    (width > 0 && height > 0 && pixels.len() == width * height).then_some(Grey { width, height, pixels })
 }

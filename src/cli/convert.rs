@@ -141,7 +141,9 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
             let text = if matches!(to, To::Json) { record.to_json() } else { record.to_csv() };
             match (&own, &args.tracks) {
                 (Some(tracks), Some(path)) => disk::write_whole(path, tracks.to_csv().as_bytes())?,
-                (Some(_), None) => super::wording::note("eyes, mouth and head are left out; `--tracks FILE` writes them"),
+                (Some(_), None) => {
+                    super::wording::note("eyes, mouth and head are left out; `--tracks FILE` writes them")
+                }
                 (None, Some(_)) => {
                     return Err(Fault::new("the file has no eyes, mouth and head to write").at(&args.file));
                 }

@@ -26,7 +26,7 @@ use std::io::Write;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::disk::{Fault, Result, nearest};
+use crate::disk::{Fault, Result, suggestion};
 
 /// A terminal studio that makes a face talk.
 #[derive(Debug, Parser)]
@@ -82,10 +82,9 @@ pub fn mistyped(first: Option<&std::ffi::OsStr>) -> Option<Fault> {
     if is_known || std::path::Path::new(word).exists() || word.contains(std::path::MAIN_SEPARATOR) {
         return None;
     }
-    let near = nearest(word, &names).map_or(String::new(), |n| format!("did you mean `{n}`? "));
     Some(
         Fault::new(format!("`{word}` is neither a command nor a folder here"))
-            .help(format!("{near}commands: {}", names.join(", ")))
+            .help(suggestion(word, "commands", &names))
             .of_the_call(),
     )
 }

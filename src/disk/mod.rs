@@ -3,8 +3,10 @@
 //!
 //! It knows nothing of what the files mean.
 
+mod csv;
 mod fault;
 mod message;
+mod nearest;
 mod next_step;
 mod paths;
 mod program;
@@ -13,13 +15,15 @@ mod temporary;
 mod toml;
 mod write;
 
+pub(crate) use csv::{CsvRow, CsvTable};
 pub use fault::{Fault, FaultKind, Result};
 pub(crate) use message::message;
 pub use message::{Message, Part};
+pub use nearest::{nearest, suggestion};
 pub use next_step::{NextStep, Setting, Task};
 pub use paths::{inside, plain_name};
 pub use program::{Ended, Messages, Pipe, Program, Running};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
 pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};
-pub use toml::{from_toml, nearest};
+pub use toml::from_toml;
 pub use write::{Lock, put_whole, replace, write_whole};

@@ -2,7 +2,7 @@
 
 use serde::de::DeserializeOwned;
 
-use super::{Fault, Result};
+use super::{Fault, Result, suggestion};
 
 /// Reads a TOML text into a type that refuses unknown keys.
 ///
@@ -14,8 +14,7 @@ pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T> {
         let message = error.message().trim();
         let fault = match unknown(message) {
             Some((what, word, known)) => {
-                let near = nearest(word, &known).map(|n| format!("did you mean `{n}`? ")).unwrap_or_default();
-                Fault::new(format!("unknown {what} `{word}`")).help(format!("{near}known here: {}", known.join(", ")))
+                Fault::new(format!("unknown {what} `{word}`")).help(suggestion(word, "known here", &known))
             }
             None if message.starts_with("missing field") => {
                 let key = message.split('`').nth(1).unwrap_or_default();
@@ -54,29 +53,6 @@ fn expected(message: &str) -> &'static str {
         "a boolean" => "true or false is needed here",
         _ => "see the README for how the file is written",
     }
-}
-
-/// The known word that is fewest edits from `word`, where that is few enough to be meant.
-#[must_use]
-pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
-    let (distance, near) = known.iter().map(|k| (edits(word, k), *k)).min()?;
-    (distance <= 1 + word.chars().count() / 3).then_some(near)
-}
-
-/// Levenshtein's distance: insertions, deletions and replacements.
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]

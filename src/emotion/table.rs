@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{CsvTable, Fault, Result, nearest};
 
 /// The latest time a row may have, in seconds: 100 hours, far beyond any lesson.
 const MAX_SECONDS: f64 = 360_000.0;
@@ -47,31 +47,29 @@ impl Place {
 
 /// The rows of a CSV file. Columns may stand in any order and others may stand beside them.
 pub(super) fn from_csv(text: &str, columns: &[&str]) -> Result<Vec<Line>> {
-    let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
-    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let Some((first, header)) = lines.next() else {
+    let table = CsvTable::read(text)?;
+    let names: Vec<&str> = table.names.iter().map(String::as_str).collect();
+    if names.is_empty() {
         return Err(Fault::new("the file is empty").help(format!("its first line must be `{}`", columns.join(","))));
-    };
-    let names: Vec<&str> = header.split(',').map(bare).collect();
+    }
     let places = columns
         .iter()
         .map(|column| {
             let at = names.iter().position(|name| name == column);
-            at.ok_or_else(|| missing(column, &names, columns).line(first + 1))
+            at.ok_or_else(|| missing(column, &names, columns).line(table.line))
         })
         .collect::<Result<Vec<usize>>>()?;
     let mut rows = Vec::new();
-    for (index, line) in lines {
-        let place = Place::Line(index + 1);
-        let cells: Vec<&str> = line.split(',').map(bare).collect();
-        if cells.len() != names.len() {
+    for row in &table.rows {
+        let place = Place::Line(row.line);
+        if row.len() != names.len() {
             return Err(place
-                .fault(format!("the row has {} values where the header names {}", cells.len(), names.len()))
+                .fault(format!("the row has {} values where the header names {}", row.len(), names.len()))
                 .help("was the file cut off, or a comma used inside a number?"));
         }
         let numbers = places.iter().zip(columns).map(|(&at, column)| {
-            let number = cells[at].parse::<f64>().ok().filter(|v| v.is_finite());
-            number.ok_or_else(|| no_number(place, cells[at], column))
+            let number = row.cell(at).parse::<f64>().ok().filter(|v| v.is_finite());
+            number.ok_or_else(|| no_number(place, row.cell(at), column))
         });
         rows.push(Line { place, cells: numbers.collect::<Result<_>>()? });
     }
@@ -144,11 +142,6 @@ pub(crate) fn decimal(value: f64, places: i32) -> String {
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
 }
 
-fn bare(cell: &str) -> &str {
-    let cell = cell.trim();
-    cell.strip_prefix('"').and_then(|c| c.strip_suffix('"')).unwrap_or(cell)
-}
-
 fn no_number(place: Place, found: &str, column: &str) -> Fault {
     place
         .fault(format!("`{found}` in the column `{column}` is no finite number"))
@@ -157,27 +150,11 @@ fn no_number(place: Place, found: &str, column: &str) -> Fault {
 
 /// The fault of a column that is not there, with the name that was probably meant.
 fn missing(column: &str, names: &[&str], columns: &[&str]) -> Fault {
-    let strangers = names.iter().filter(|name| !columns.contains(name));
-    let nearest = strangers.map(|name| (distance(name, column), name)).min();
+    let others: Vec<&str> = names.iter().copied().filter(|name| !columns.contains(name)).collect();
+    let in_capitals = others.iter().copied().find(|name| name.eq_ignore_ascii_case(column));
     let fault = Fault::new(format!("the column `{column}` is missing"));
-    match nearest {
-        Some((far, name)) if far <= column.len().div_ceil(2) => fault.help(format!("is `{name}` meant to be it?")),
-        _ => fault.help(format!("the columns are {}", columns.join(","))),
+    match in_capitals.or_else(|| nearest(column, &others)) {
+        Some(name) => fault.help(format!("is `{name}` meant to be it?")),
+        None => fault.help(format!("the columns are {}", columns.join(","))),
     }
-}
-
-/// How many letters must be put in, taken out or changed to make one word the other (Levenshtein).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(64).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().take(64).enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let changed = diagonal + usize::from(x.to_ascii_lowercase() != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = changed.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::disk::nearest;
+use crate::disk::suggestion;
 
 /// A form that a clip or a lesson is exported in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,9 +138,7 @@ impl FromStr for Format {
         let text = text.trim().to_lowercase();
         let text = text.as_str();
         Self::ALL.into_iter().find(|f| f.name() == text).ok_or_else(|| {
-            let known = Self::ALL.map(Self::name);
-            let near = nearest(text, &known).map(|n| format!("did you mean `{n}`? ")).unwrap_or_default();
-            format!("`{text}` is no export format; {near}formats: {}", known.join(", "))
+            format!("`{text}` is no export format; {}", suggestion(text, "formats", &Self::ALL.map(Self::name)))
         })
     }
 }

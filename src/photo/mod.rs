@@ -4,6 +4,8 @@
 //! It knows nothing of feature points; what makes a face of all this is `face`.
 
 mod plane;
+mod limits;
+mod jpeg;
 mod read;
 mod mask;
 mod hsi;
@@ -27,11 +29,13 @@ pub use edges::{Divisions, Edges, sobel};
 pub use eye_pair::{EyePair, EyePairs};
 pub use eyeballs::{Eyeball, Eyeballs};
 pub use hsi::{Hsi, hue, hue_distance};
+pub use jpeg::jpeg_luma;
+pub use limits::MAX_PHOTO_SIDE;
 pub use mask::{Bounds, Mask};
 pub use plane::Plane;
 pub use quality::Quality;
 pub use ranges::{Feature, Features};
-pub use read::{MAX_PHOTO_BYTES, MAX_PHOTO_SIDE, sha256};
+pub use read::{MAX_PHOTO_BYTES, sha256};
 pub use refine::Refined;
 pub use regions::{Neighbours, Region, Regions};
 pub use stages::{Located, STAGES_SIDE, Stages};

@@ -7,23 +7,15 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use sha2::{Digest, Sha256};
 
-use super::Photo;
+use super::limits::{MAX_DECODED_BYTES, MAX_PHOTO_SIDE, check_size, of_decoding};
+use super::{Photo, jpeg};
 use crate::disk::{Fault, Result, read_bytes};
 
 /// The largest photo file that is read.
 pub const MAX_PHOTO_BYTES: u64 = 64 << 20;
-/// The most pixels that a photo may be wide or high.
-pub const MAX_PHOTO_SIDE: u32 = 12_000;
-/// The most memory that decoding may take: 100 megapixels of 16-bit RGBA.
-const MAX_DECODED_BYTES: u64 = 800 << 20;
-/// How many times larger than its file a photo may be once decoded. One colour all over is packed 500 times smaller by
-/// JPEG and 1000 times by PNG; a header that promises more is a trap for memory, or no photo.
-const MAX_PACKED: u64 = 2000;
-/// Below this size once decoded a photo is no trap.
-const HARMLESS_BYTES: u64 = 4 << 20;
 
 impl Photo {
     /// Reads a PNG, JPEG or WebP file. Orientation tags are obeyed, 16 bits become 8, grey becomes RGB, and what is
@@ -52,30 +44,23 @@ impl Photo {
     /// # Errors
     /// When they are of another kind, damaged, or of too large a picture.
     pub fn decode(bytes: &[u8]) -> Result<Self> {
-        let mut reader = ImageReader::new(Cursor::new(bytes));
         let kind = image::guess_format(bytes).ok().filter(|f| KINDS.contains(f));
         let Some(kind) = kind else {
             return Err(Fault::new(format!("this is not a photo that can be read{}", named(bytes)))
                 .help("save it as PNG, JPEG or WebP and give that"));
         };
+        if kind == ImageFormat::Jpeg {
+            return jpeg::upright(bytes).map(flattened);
+        }
+        let mut reader = ImageReader::new(Cursor::new(bytes));
         reader.set_format(kind);
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_PHOTO_SIDE);
         limits.max_image_height = Some(MAX_PHOTO_SIDE);
         limits.max_alloc = Some(MAX_DECODED_BYTES);
         reader.limits(limits);
-        if kind == ImageFormat::Jpeg && !ends(bytes) {
-            return Err(Fault::new("the photo is damaged: its end is missing").help("copy or download it again"));
-        }
         let mut decoder = reader.into_decoder().map_err(of_decoding)?;
-        let size = decoder.total_bytes();
-        if size > MAX_DECODED_BYTES {
-            return Err(too_large());
-        }
-        if size > HARMLESS_BYTES && size / MAX_PACKED > bytes.len() as u64 {
-            return Err(Fault::new("the photo is damaged: its header promises more pixels than the file can hold")
-                .help("save it again in another program and give that"));
-        }
+        check_size(decoder.total_bytes(), bytes.len())?;
         let orientation = decoder.orientation().map_err(of_decoding)?;
         let mut image = DynamicImage::from_decoder(decoder).map_err(of_decoding)?;
         image.apply_orientation(orientation);
@@ -110,43 +95,6 @@ fn named(bytes: &[u8]) -> &'static str {
         ": the file is empty"
     } else {
         ""
-    }
-}
-
-fn too_large() -> Fault {
-    Fault::new(format!("the photo is larger than {MAX_PHOTO_SIDE} × {MAX_PHOTO_SIDE} pixels, or too large to decode"))
-        .help("scale it down; 1000 pixels across are plenty")
-}
-
-/// Whether a JPEG file goes on to its end. Decoders fill what is missing with grey and say nothing. Within the coded
-/// pixels no byte 0xFF stands before 0xD9, so the mark of the end is looked for from there on; thumbnails before it
-/// have marks of their own.
-fn ends(bytes: &[u8]) -> bool {
-    let mut at = 2;
-    while let Some([0xFF, kind, rest @ ..]) = bytes.get(at..) {
-        match kind {
-            // Start of the coded pixels.
-            0xDA => return rest.windows(2).any(|w| w == [0xFF, 0xD9]),
-            // Fill bytes.
-            0xFF => at += 1,
-            // Marks without a length.
-            0x01 | 0xD0..=0xD9 => at += 2,
-            _ => match rest {
-                [high, low, ..] => at += 2 + usize::from(u16::from_be_bytes([*high, *low])),
-                _ => return false,
-            },
-        }
-    }
-    // Something that is no mark where one should be: the decoder may know better.
-    at < bytes.len()
-}
-
-fn of_decoding(error: ImageError) -> Fault {
-    match error {
-        ImageError::Limits(_) => too_large(),
-        error => {
-            Fault::new(format!("the photo is damaged: {error}")).help("save it again in another program and give that")
-        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::{Change, Clip, LessonFace};
-use crate::disk::{Fault, Lock, Result, nearest};
+use crate::disk::{Fault, Lock, Result, suggestion};
 use crate::figure::Figure;
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
@@ -182,10 +182,9 @@ impl Lesson {
         let known: Vec<&str> = self.clips.iter().map(|c| c.entry.name.as_str()).collect();
         match name {
             Some(name) => self.clips.iter().position(|c| c.entry.name == name).ok_or_else(|| {
-                let near = nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
                 Fault::new(format!("there is no clip `{name}`"))
                     .at(self.root.join(MANIFEST))
-                    .help(format!("{near}clips: {}", known.join(", ")))
+                    .help(suggestion(name, "clips", &known))
             }),
             None if self.clips.is_empty() => {
                 Err(Fault::new("the lesson has no clips").at(self.root.join(MANIFEST)).help("add a [[clip]]"))
@@ -202,10 +201,9 @@ impl Lesson {
         let known: Vec<&str> = self.faces.iter().map(|f| f.entry.name.as_str()).collect();
         match name {
             Some(name) => known.iter().position(|k| *k == name).ok_or_else(|| {
-                let near = nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
                 Fault::new(format!("there is no face `{name}`"))
                     .at(self.root.join(MANIFEST))
-                    .help(format!("{near}faces: {}", known.join(", ")))
+                    .help(suggestion(name, "faces", &known))
             }),
             None if known.is_empty() => {
                 Err(Fault::new("the lesson has no faces").at(self.root.join(MANIFEST)).help("add a [[face]]"))

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::disk::{Fault, Result, Task, clean_line, from_toml, message, nearest, plain_name, read_text};
+use crate::disk::{Fault, Result, Task, clean_line, from_toml, message, plain_name, read_text, suggestion};
 use crate::figure::LayerPlace;
 use crate::pose::MouthPreset;
 use crate::render::MAX_SIDE;
@@ -225,9 +225,8 @@ fn check_face_of(clip: &ClipEntry, faces: &[FaceEntry]) -> Result<()> {
     let known = || faces.iter().map(|f| f.name.as_str()).collect::<Vec<_>>();
     match &clip.face {
         Some(name) if faces.iter().all(|f| f.name != *name) => {
-            let near = nearest(name, &known()).map_or(String::new(), |n| format!("did you mean `{n}`? "));
             Err(Fault::new(format!("the clip `{}` has the face `{name}`, which is not in the lesson", clip.name))
-                .help(format!("{near}faces: {}", known().join(", "))))
+                .help(suggestion(name, "faces", &known())))
         }
         None if faces.len() > 1 => Err(Fault::new(format!("the clip `{}` does not say whose face it has", clip.name))
             .help(format!("add face = \"NAME\"; faces: {}", known().join(", ")))),

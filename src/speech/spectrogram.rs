@@ -2,13 +2,12 @@
 
 use std::f32::consts::TAU;
 use std::ops::Range;
-use std::sync::Arc;
 
 use rayon::prelude::*;
-use realfft::{RealFftPlanner, RealToComplex};
 
 use super::Sound;
 use super::decimate::decimated;
+use super::fourier::Powers;
 
 /// Bands of frequency, equally wide in mel: more than a strip in a terminal has rows.
 const BANDS: usize = 64;
@@ -64,10 +63,10 @@ impl Spectrogram {
         let mut fine = vec![0_u8; count * BANDS];
         // A thousand columns to a thread's turn; each column is computed alone, so their order is of no matter.
         fine.par_chunks_mut(1000 * BANDS).enumerate().for_each(|(turn, part)| {
-            let mut work = columns.work();
+            let mut transform = columns.transform.clone();
             for (index, column) in part.chunks_mut(BANDS).enumerate() {
                 let middle = ((turn * 1000 + index) as f64 * step * rate) as usize;
-                columns.column(&samples, middle, &mut work, column);
+                columns.column(&samples, middle, &mut transform, column);
             }
         });
         let coarse = (0..count.div_ceil(COARSE))
@@ -164,16 +163,10 @@ fn quantile(histogram: &[u32; 256], share: f64) -> f32 {
 
 /// What turns samples into columns.
 struct Columns {
-    fourier: Arc<dyn RealToComplex<f32>>,
+    transform: Powers,
     window: Vec<f32>,
     /// For each band its first line of the spectrum and the weights of the lines from there.
     filters: Vec<(usize, Vec<f32>)>,
-}
-
-struct Work {
-    input: Vec<f32>,
-    lines: Vec<realfft::num_complex::Complex<f32>>,
-    scratch: Vec<realfft::num_complex::Complex<f32>>,
 }
 
 impl Columns {
@@ -199,28 +192,15 @@ impl Columns {
                 (first, weights.into_iter().map(|w| w * gain).collect())
             })
             .collect();
-        Self { fourier: RealFftPlanner::new().plan_fft_forward(WINDOW), window, filters }
-    }
-
-    fn work(&self) -> Work {
-        Work {
-            input: self.fourier.make_input_vec(),
-            lines: self.fourier.make_output_vec(),
-            scratch: self.fourier.make_scratch_vec(),
-        }
+        Self { transform: Powers::new(WINDOW), window, filters }
     }
 
     /// The column whose middle is at a sample.
-    fn column(&self, samples: &[f32], middle: usize, work: &mut Work, column: &mut [u8]) {
-        for (i, (value, weight)) in work.input.iter_mut().zip(&self.window).enumerate() {
+    fn column(&self, samples: &[f32], middle: usize, transform: &mut Powers, column: &mut [u8]) {
+        let power = transform.of(self.window.iter().enumerate().map(|(i, weight)| {
             let sample = (middle + i).checked_sub(WINDOW / 2).and_then(|at| samples.get(at));
-            *value = sample.copied().unwrap_or(0.0) * weight;
-        }
-        // It fails only where lengths differ, and these are of its own making.
-        if self.fourier.process_with_scratch(&mut work.input, &mut work.lines, &mut work.scratch).is_err() {
-            return;
-        }
-        let power: Vec<f32> = work.lines.iter().map(|l| l.norm_sqr()).collect();
+            sample.copied().unwrap_or(0.0) * weight
+        }));
         for (value, (first, weights)) in column.iter_mut().zip(&self.filters) {
             let energy: f32 = power.iter().skip(*first).zip(weights).map(|(p, w)| p * w).sum();
             *value = ((10.0 * (energy + 1e-12).log10() - FLOOR) * PER_DB).clamp(0.0, 255.0) as u8;

@@ -1,7 +1,7 @@
 //! Sound to hear, by a player program that is there: the clip while its syllables are tapped, and the clicks of a
 //! measurement. Over a network the player would sound at the wrong end, so there is none.
 
-use std::io::Write;
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use tempfile::NamedTempFile;
 
 use crate::disk::Program;
-use crate::speech::Sound;
+use crate::speech::{Sound, write_wav};
 
 /// Players that are known, the quickest to begin first, with what they are given before the file.
 const PLAYERS: [(&str, &[&str]); 5] = [
@@ -127,7 +127,7 @@ struct Ready {
     from: f64,
     speed: f64,
     /// Samples as they stand in the file.
-    coded: Vec<u8>,
+    coded: Vec<i16>,
     /// The file of all of them, until it is played.
     file: Option<NamedTempFile>,
 }
@@ -153,7 +153,7 @@ impl Ready {
         if skipped == 0 && whole.is_some() {
             return whole;
         }
-        written(self.sound.rate, self.coded.get(2 * skipped..).unwrap_or_default())
+        written(self.sound.rate, self.coded.get(skipped..).unwrap_or_default())
     }
 }
 
@@ -164,24 +164,14 @@ fn begin(program: &Path, options: &[&str], file: &Path) -> Option<Child> {
 }
 
 /// Samples of 16 bits.
-fn coded(samples: &[f32]) -> Vec<u8> {
-    let whole = |s: &f32| ((s.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16).to_le_bytes();
-    samples.iter().flat_map(whole).collect()
+fn coded(samples: &[f32]) -> Vec<i16> {
+    samples.iter().map(|s| (s.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16).collect()
 }
 
-/// A WAV file of samples of 16 bits; none where they are more than such a file can hold.
-fn written(rate: u32, samples: &[u8]) -> Option<NamedTempFile> {
-    let size = u32::try_from(samples.len()).ok()?;
-    let mut head = Vec::with_capacity(44);
-    head.extend(b"RIFF");
-    head.extend(size.checked_add(36)?.to_le_bytes());
-    head.extend(b"WAVEfmt \x10\0\0\0\x01\0\x01\0");
-    head.extend(rate.to_le_bytes());
-    head.extend((rate * 2).to_le_bytes());
-    head.extend(b"\x02\0\x10\0data");
-    head.extend(size.to_le_bytes());
-    let mut file = tempfile::Builder::new().prefix("lianpu-").suffix(".wav").tempfile().ok()?;
-    file.write_all(&head).and_then(|()| file.write_all(samples)).ok()?;
+/// A WAV file of samples; none where it cannot be written.
+fn written(rate: u32, samples: &[i16]) -> Option<NamedTempFile> {
+    let file = tempfile::Builder::new().prefix("lianpu-").suffix(".wav").tempfile().ok()?;
+    write_wav(BufWriter::new(file.as_file()), rate, [samples]).ok()?;
     Some(file)
 }
 

@@ -267,8 +267,7 @@ fn by_emotion(table: &toml::Table, what: &str, usual: f64) -> Result<[f64; 7]> {
     for (name, value) in table {
         let emotion: Emotion = name.parse().map_err(|e: String| {
             let known: Vec<&str> = Emotion::ALL.iter().map(|e| e.name()).collect();
-            let near = crate::disk::nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
-            Fault::new(format!("{e} (in `{what}`)")).help(format!("{near}known: {}", known.join(", ")))
+            Fault::new(format!("{e} (in `{what}`)")).help(crate::disk::suggestion(name, "known", &known))
         })?;
         out[emotion.index()] = number(value).filter(|v| v.abs() <= 100.0).ok_or_else(|| {
             Fault::new(format!("`{name}` in `{what}` is {value}")).help("give a number from −100 to 100")

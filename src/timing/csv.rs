@@ -7,7 +7,7 @@ use super::Timing;
 use super::clock::seconds;
 use super::layer::Layer;
 use super::tiers::{MAX_TIERS, too_many_tiers};
-use crate::disk::{Fault, Result};
+use crate::disk::{CsvTable, Fault, Result};
 
 const COLUMNS: [&str; 4] = ["tier", "start", "end", "label"];
 
@@ -16,41 +16,41 @@ type Row = (usize, f64, f64, String);
 
 /// Whether a first line is this table's header.
 pub(super) fn is_header(line: &str) -> bool {
-    let names: Vec<&str> = line.split(',').map(|n| n.trim().trim_matches('"')).collect();
+    let names = CsvTable::names_of(line);
     COLUMNS.iter().all(|c| names.iter().any(|n| n.eq_ignore_ascii_case(c)))
 }
 
 pub(super) fn parse(text: &str) -> Result<Timing> {
-    let mut records = records(text)?.into_iter();
+    let table = CsvTable::read(text)?;
     let header_fault = |fault: Fault| fault.help("the first line must be `tier,start,end,label`");
-    let Some((line, header)) = records.next() else {
+    if table.names.is_empty() {
         return Err(header_fault(Fault::new("the file is empty")));
-    };
+    }
     let mut places = [0; 4];
     for (place, column) in places.iter_mut().zip(COLUMNS) {
-        *place = header
-            .iter()
-            .position(|name| name.trim().eq_ignore_ascii_case(column))
-            .ok_or_else(|| header_fault(Fault::new(format!("the column `{column}` is missing")).line(line)))?;
+        *place = table
+            .column(column)
+            .ok_or_else(|| header_fault(Fault::new(format!("the column `{column}` is missing")).line(table.line)))?;
     }
     // Rows may come by tier or by time: they are gathered by tier and put in order before they are laid.
     let mut tiers: Vec<(String, Vec<Row>)> = Vec::new();
-    for (line, record) in records {
-        if record.len() != header.len() {
-            return Err(Fault::new(format!("the row has {} values, the header {}", record.len(), header.len()))
+    for record in &table.rows {
+        let line = record.line;
+        if record.len() != table.names.len() {
+            return Err(Fault::new(format!("the row has {} values, the header {}", record.len(), table.names.len()))
                 .line(line)
                 .help("a label with a comma or a line break must stand in double quotes"));
         }
         let number = |at: usize| {
-            let found = record[places[at]].trim();
+            let found = record.cell(places[at]);
             found.parse::<f64>().ok().filter(|n| n.is_finite()).ok_or_else(|| {
                 Fault::new(format!("`{found}` in the column `{}` is no finite number", COLUMNS[at]))
                     .line(line)
                     .help("write seconds with digits and a point, such as 1.25")
             })
         };
-        let row = (line, number(1)?, number(2)?, record[places[3]].clone());
-        let name = record[places[0]].trim();
+        let row = (line, number(1)?, number(2)?, record.cell(places[3]).to_owned());
+        let name = record.cell(places[0]);
         match tiers.iter().position(|(n, _)| n == name) {
             Some(at) => tiers[at].1.push(row),
             None if tiers.len() >= MAX_TIERS => return Err(too_many_tiers().line(line)),
@@ -95,47 +95,4 @@ fn quoted(field: &str) -> String {
     } else {
         field.to_owned()
     }
-}
-
-/// The records of an RFC 4180 text, each with the line it begins on. Empty lines are passed over.
-fn records(text: &str) -> Result<Vec<(usize, Vec<String>)>> {
-    let (mut records, mut record, mut field) = (Vec::new(), Vec::new(), String::new());
-    let (mut line, mut began, mut quote) = (1, 1, None);
-    let mut was_quoted = false;
-    let mut chars = text.chars().peekable();
-    while let Some(c) = chars.next() {
-        line += usize::from(c == '\n');
-        match (quote, c) {
-            (Some(_), '"') if chars.next_if_eq(&'"').is_some() => field.push('"'),
-            (Some(_), '"') => quote = None,
-            (Some(_), c) => field.push(c),
-            (None, '"') if field.trim().is_empty() && !was_quoted => {
-                field.clear();
-                (quote, was_quoted) = (Some(line), true);
-            }
-            (None, ',') => {
-                record.push(std::mem::take(&mut field));
-                was_quoted = false;
-            }
-            (None, '\n') => {
-                if !(record.is_empty() && field.trim().is_empty() && !was_quoted) {
-                    record.push(std::mem::take(&mut field));
-                    records.push((began, std::mem::take(&mut record)));
-                }
-                field.clear();
-                (began, was_quoted) = (line, false);
-            }
-            (None, c) => field.push(c),
-        }
-    }
-    if let Some(opened) = quote {
-        return Err(Fault::new("the file ends inside a label in quotes")
-            .line(opened)
-            .help("the quote opened here is never closed; a quote inside a label is written twice"));
-    }
-    if !record.is_empty() || !field.trim().is_empty() || was_quoted {
-        record.push(field);
-        records.push((began, record));
-    }
-    Ok(records)
 }

@@ -112,7 +112,10 @@ impl Bench {
     pub fn aligning(times: Option<[(f64, f64); 2]>, found: Alignment) -> Self {
         let dir = tempfile::tempdir().unwrap();
         lesson(&dir.path().join("nihao"), times, &[]);
-        let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+        let studio = Studio::new(
+            State::new(dir.path(), Colours::None).unwrap(),
+            Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
+        );
         let aligner = Aligner::new(move |_: &AlignJob| vec![(0, Ok(found.clone()))]);
         let mut bench = Self { studio: studio.with_aligner(aligner), dir };
         bench.keys("Enter Enter");

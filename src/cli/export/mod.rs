@@ -83,9 +83,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let projects = super::lessons(&args.projects);
     let shard = match args.shard {
         Some(shard) => shard,
-        None => {
-            shard_of_array()?.inspect(|s| wording::note(format!("part {s}, as this job array has it"))).unwrap_or(Shard::WHOLE)
-        }
+        None => shard_of_array()?
+            .inspect(|s| wording::note(format!("part {s}, as this job array has it")))
+            .unwrap_or(Shard::WHOLE),
     };
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {

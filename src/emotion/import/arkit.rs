@@ -1,13 +1,13 @@
 //! Blendshapes as CSV: what Live Link Face and other apps on ARKit record.
 
 use super::blendshapes::{is_known, plain};
-use super::csv::Table;
+use super::csv;
 use super::frame::Seen;
-use crate::disk::{Fault, Result};
+use crate::disk::{CsvTable, Fault, Result};
 use crate::pose::Head;
 
 /// Whether a CSV's heading is one of blendshapes.
-pub(super) fn is_header(names: &[&str]) -> bool {
+pub(super) fn is_header(names: &[String]) -> bool {
     names.iter().filter(|n| is_known(n)).count() >= 10
 }
 
@@ -15,7 +15,7 @@ pub(super) fn is_header(names: &[&str]) -> bool {
 /// blendshapes under any of their names, and the head's turns in radians (`HeadRoll`) where there are any. A row without
 /// values, or whose `BlendshapeCount` is 0, is a lost frame.
 pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
-    let table = Table::read(text)?;
+    let table = csv::read(text)?;
     let shapes: Vec<(usize, String)> = table
         .names
         .iter()
@@ -29,14 +29,14 @@ pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
     for (row, time) in table.rows.iter().zip(times) {
         let mut seen = Seen { time, confidence: 1.0, ..Seen::default() };
         for (column, name) in &shapes {
-            if let Some(value) = table.number(row, *column)? {
+            if let Some(value) = csv::number(&table, row, *column)? {
                 seen.shapes.insert(name.clone(), value.clamp(0.0, 1.0));
             }
         }
-        if let Some(roll) = roll.map(|c| table.number(row, c)).transpose()?.flatten() {
+        if let Some(roll) = roll.map(|c| csv::number(&table, row, c)).transpose()?.flatten() {
             seen.head = Some(Head { roll: roll.to_degrees(), ..Head::default() });
         }
-        let none = count.map(|c| table.number(row, c)).transpose()?.flatten() == Some(0.0);
+        let none = count.map(|c| csv::number(&table, row, c)).transpose()?.flatten() == Some(0.0);
         if none || seen.shapes.is_empty() {
             seen.confidence = 0.0;
         }
@@ -50,21 +50,23 @@ pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
 }
 
 /// Seconds from the first row.
-fn times(table: &Table<'_>) -> Result<Vec<f64>> {
+fn times(table: &CsvTable) -> Result<Vec<f64>> {
     let no_time = || {
         Fault::new("the table of blendshapes has no time")
             .line(1)
             .help("it needs a column `Timecode`, `timestamp` or `time`")
     };
     if let Some(column) = table.column("Timecode")
-        && table.rows.first().is_some_and(|(_, row)| row[column].contains(':'))
+        && table.rows.first().is_some_and(|row| row.cell(column).contains(':'))
     {
         let mut codes = Vec::with_capacity(table.rows.len());
-        for (line, row) in &table.rows {
-            let parts: Option<Vec<f64>> = row[column].split([':', ';']).map(|p| p.parse().ok()).collect();
+        for row in &table.rows {
+            let parts: Option<Vec<f64>> = row.cell(column).split([':', ';']).map(|p| p.parse().ok()).collect();
             let parts = parts.filter(|p| p.len() == 4 && p.iter().all(|v| (0.0..1e6).contains(v)));
             codes.push(parts.ok_or_else(|| {
-                Fault::new(format!("`{}` is no timecode", row[column])).line(*line).help("write it as 14:26:42:37.254")
+                Fault::new(format!("`{}` is no timecode", row.cell(column)))
+                    .line(row.line)
+                    .help("write it as 14:26:42:37.254")
             })?);
         }
         // Phones record 60 frames a second or 30; a frame's number above 30 tells.
@@ -76,7 +78,7 @@ fn times(table: &Table<'_>) -> Result<Vec<f64>> {
         ["timestamp", "time", "timecode", "seconds", "t"].iter().find_map(|n| table.column(n)).ok_or_else(no_time)?;
     let mut times = Vec::with_capacity(table.rows.len());
     for row in &table.rows {
-        times.push(table.number(row, column)?.ok_or_else(|| no_time().line(row.0))?);
+        times.push(csv::number(table, row, column)?.ok_or_else(|| no_time().line(row.line))?);
     }
     Ok(in_seconds(times))
 }

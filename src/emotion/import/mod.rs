@@ -51,7 +51,7 @@ impl Kind {
             return if is_ours { Some(Self::Json) } else { mediapipe::is_likely(head).then_some(Self::Mediapipe) };
         }
         let header = head.lines().next().unwrap_or_default();
-        let names: Vec<&str> = header.split(',').map(|n| n.trim().trim_matches('"')).collect();
+        let names = disk::CsvTable::names_of(header);
         if openface::is_header(&names) {
             Some(Self::OpenFace)
         } else if arkit::is_header(&names) {

@@ -1,7 +1,7 @@
 //! The CSV of OpenFace: 68 points, action units, gaze and the head's place.
 
 use super::blendshapes::UNITS;
-use super::csv::Table;
+use super::csv;
 use super::frame::Seen;
 use crate::disk::{Fault, Result};
 use crate::geometry::Point;
@@ -15,14 +15,14 @@ const PUPILS: f64 = 63.0;
 const LOOK: f64 = 1.1;
 
 /// Whether a CSV's heading is OpenFace's.
-pub(super) fn is_header(names: &[&str]) -> bool {
-    let has = |name: &str| names.contains(&name);
+pub(super) fn is_header(names: &[String]) -> bool {
+    let has = |name: &str| names.iter().any(|n| n == name);
     has("frame") && has("timestamp") && (has("AU12_r") || has("x_0") || has("gaze_angle_x"))
 }
 
 /// Frames of one face: the first that the file names where there are several.
 pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
-    let table = Table::read(text)?;
+    let table = csv::read(text)?;
     let need =
         |name: &str| table.column(name).ok_or_else(|| Fault::new(format!("the column `{name}` is missing")).line(1));
     let exact = |name: &str| table.names.iter().position(|n| *n == name);
@@ -39,20 +39,20 @@ pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
     let mut first = None;
     let mut who = None;
     for row in &table.rows {
-        let number = |column: usize| table.number(row, column);
+        let number = |column: usize| csv::number(&table, row, column);
         let maybe = |column: Option<usize>| column.map(number).transpose().map(Option::flatten);
         let id = maybe(face)?;
         if *who.get_or_insert(id) != id {
             continue;
         }
         let at = |column, name: &str| -> Result<f64> {
-            number(column)?.ok_or_else(|| Fault::new(format!("the row has no {name}")).line(row.0))
+            number(column)?.ok_or_else(|| Fault::new(format!("the row has no {name}")).line(row.line))
         };
         let (n, seconds) = (at(frame, "frame")?, at(time, "timestamp")?);
         let n = n - *first.get_or_insert(n);
         if n < 0.0 || n > f64::from(u32::MAX) || frames.last().is_some_and(|f| n as u32 <= f.frame || seconds <= f.time)
         {
-            return Err(Fault::new("frames and times do not rise").line(row.0).help("give the file of one video"));
+            return Err(Fault::new("frames and times do not rise").line(row.line).help("give the file of one video"));
         }
         let found = maybe(success)?.unwrap_or(1.0) > 0.0;
         let confidence = if found { maybe(sure)?.unwrap_or(1.0).clamp(0.0, 1.0) } else { 0.0 };

@@ -3,13 +3,12 @@
 use std::io::BufWriter;
 use std::path::Path;
 
-use hound::{SampleFormat, WavSpec, WavWriter};
 use tempfile::NamedTempFile;
 
 use crate::disk::Result;
 use crate::export::draft::{beside, write_fault};
 use crate::export::stream::Rate;
-use crate::speech::Sound;
+use crate::speech::{Sound, write_wav};
 use crate::timing::{Interval, Tier};
 
 /// Samples a second of the sound in a video: what AAC and Opus both take as it is.
@@ -34,28 +33,19 @@ pub(super) fn runs(shown: &[u32]) -> Vec<(u32, u32)> {
 /// recording has ended.
 pub(super) fn sound_file(place: &Path, sound: &Sound, runs: &[(u32, u32)], rate: Rate) -> Result<NamedTempFile> {
     let file = beside(place, ".wav")?;
-    let spec = WavSpec { channels: 1, sample_rate: SAMPLE_RATE, bits_per_sample: 16, sample_format: SampleFormat::Int };
-    let written = (|| {
-        let mut wav = WavWriter::new(BufWriter::new(file.as_file()), spec)?;
-        let samples = sound.resampling(SAMPLE_RATE);
-        for (from, until) in runs {
-            let [from, until] = [from, until].map(|n| rate.in_parts(*n, SAMPLE_RATE.into()) as usize);
-            for start in (from..until).step_by(BLOCK) {
-                let end = until.min(start + BLOCK);
-                let mut heard = samples.part(start..end);
-                heard.resize(end - start, 0.0);
-                for sample in heard {
-                    wav.write_sample((sample.clamp(-1.0, 1.0) * 32_767.0).round() as i16)?;
-                }
-            }
-        }
-        wav.finalize()
-    })();
-    match written {
-        Ok(()) => Ok(file),
-        Err(hound::Error::IoError(e)) => Err(write_fault(place, e)),
-        Err(e) => Err(write_fault(place, std::io::Error::other(e))),
-    }
+    let samples = sound.resampling(SAMPLE_RATE);
+    let blocks = runs.iter().flat_map(|(from, until)| {
+        let [from, until] = [from, until].map(|n| rate.in_parts(*n, SAMPLE_RATE.into()) as usize);
+        (from..until).step_by(BLOCK).map(move |start| start..until.min(start + BLOCK))
+    });
+    let coded = blocks.map(|block| {
+        let length = block.len();
+        let mut heard = samples.part(block);
+        heard.resize(length, 0.0);
+        heard.iter().map(|s| (s.clamp(-1.0, 1.0) * 32_767.0).round() as i16).collect::<Vec<_>>()
+    });
+    write_wav(BufWriter::new(file.as_file()), SAMPLE_RATE, coded).map_err(|e| write_fault(place, e))?;
+    Ok(file)
 }
 
 /// The captions of the runs, in the time of the video.

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use crate::disk::{Fault, Pipe, Result};
-use crate::speech::Sound;
+use crate::speech::{Sound, write_wav};
 use crate::track::Ffmpeg;
 
 /// Bits a second of what is encoded: speech through one channel is clean from here on.
@@ -47,21 +47,9 @@ pub(super) fn own(path: &Path) -> Option<Encoded> {
 /// # Errors
 /// When it is too long for a WAV file.
 pub(super) fn wav(sound: &Sound) -> Result<Vec<u8>> {
-    let spec = hound::WavSpec {
-        channels: 1,
-        sample_rate: sound.rate,
-        bits_per_sample: 16,
-        sample_format: hound::SampleFormat::Int,
-    };
     let mut bytes = Cursor::new(Vec::with_capacity(44 + 2 * sound.samples.len()));
-    let written = (|| {
-        let mut writer = hound::WavWriter::new(&mut bytes, spec)?;
-        for sample in whole(sound) {
-            writer.write_sample(sample)?;
-        }
-        writer.finalize()
-    })();
-    written.map_err(|e| Fault::new(format!("the sound cannot be written as WAV: {e}")))?;
+    write_wav(&mut bytes, sound.rate, [whole(sound).collect::<Vec<_>>()])
+        .map_err(|e| Fault::new(format!("the sound cannot be written as WAV: {e}")))?;
     Ok(bytes.into_inner())
 }
 

@@ -5,7 +5,7 @@
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 
 use super::Chosen;
-use crate::disk::{Fault, Result, clean_line, from_toml, nearest};
+use crate::disk::{Fault, Result, clean_line, from_toml, suggestion};
 use crate::drawing::Colour;
 use crate::face::HairKind;
 use crate::face::rig::Proportions;
@@ -161,9 +161,9 @@ impl Style {
             "cute" => Ok(include_str!("styles/cute.toml")),
             "ink" => Ok(include_str!("styles/ink.toml")),
             _ => {
-                let near = nearest(name, &Self::BUILT_IN).map(|n| format!("did you mean `{n}`? ")).unwrap_or_default();
+                let near = suggestion(name, "styles", &Self::BUILT_IN);
                 Err(Fault::new(format!("there is no style `{name}`"))
-                    .help(format!("{near}styles: {}, or a file styles/NAME.toml", Self::BUILT_IN.join(", "))))
+                    .help(format!("{near}, or a file styles/NAME.toml")))
             }
         }
     }

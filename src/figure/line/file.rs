@@ -34,7 +34,7 @@ use serde::Deserialize;
 use super::eye::Eye;
 use super::mouth::Mouth;
 use super::{Backdrop, Colours, Fill, Line, LineFigure, Widths};
-use crate::disk::{Fault, Result, from_toml, nearest, plain_name};
+use crate::disk::{Fault, Result, from_toml, plain_name, suggestion};
 use crate::drawing::Colour;
 use crate::geometry::{Knot, Point, Rect, Ribbon};
 use crate::pose::Emotion;
@@ -190,8 +190,7 @@ impl LineFigure {
         let line = |name: &String| {
             names.get(name).copied().ok_or_else(|| {
                 let known: Vec<&str> = lines.iter().map(|l| l.name.as_str()).collect();
-                let near = nearest(name, &known).map_or(String::new(), |n| format!("did you mean `{n}`? "));
-                Fault::new(format!("there is no line `{name}`")).help(format!("{near}lines: {}", known.join(", ")))
+                Fault::new(format!("there is no line `{name}`")).help(suggestion(name, "lines", &known))
             })
         };
         let mut eyes = Vec::new();

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub use file::FIGURE_FORMAT;
 pub use widths::Widths;
 
-use crate::disk::{Fault, Result, nearest};
+use crate::disk::{Fault, Result, suggestion};
 use crate::drawing::{Colour, Item};
 use crate::geometry::{Knot, Rect, Ribbon};
 use crate::pose::Ratios;
@@ -110,9 +110,9 @@ impl LineFigure {
             "line" => Self::parse(include_str!("line.toml")),
             "cat" => Self::parse(include_str!("cat.toml")),
             _ => {
-                let near = nearest(name, &Self::BUILT_IN).map(|n| format!("did you mean `{n}`? ")).unwrap_or_default();
+                let near = suggestion(name, "figures", &Self::BUILT_IN);
                 Err(Fault::new(format!("there is no figure `{name}`"))
-                    .help(format!("{near}figures: {}, or a file figures/NAME.toml", Self::BUILT_IN.join(", "))))
+                    .help(format!("{near}, or a file figures/NAME.toml")))
             }
         }
     }

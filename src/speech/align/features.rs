@@ -4,7 +4,7 @@
 //! 25 ms come 26 mel bands, 13 cepstra of them, and how those change over 40 ms. The mean of the loud frames is taken
 //! off: most of what a room and a microphone add.
 
-use super::fourier::Fourier;
+use crate::speech::fourier::Powers;
 
 /// Samples a second that the aligner works at: all that tells phones apart lies below 8 kHz.
 pub const RATE: u32 = 16_000;
@@ -22,7 +22,9 @@ const CEPSTRA: usize = 13;
 const BANDS: usize = 26;
 /// Samples that are looked at for a frame: 25 ms.
 const WINDOW: usize = 400;
-const BINS: usize = super::fourier::SIZE / 2 + 1;
+/// Samples of a transform: those of a window, and silence.
+const SIZE: usize = 512;
+const BINS: usize = SIZE / 2 + 1;
 /// The mel bands lie between these, in Hz.
 const LOWEST: f64 = 60.0;
 const HIGHEST: f64 = 7800.0;
@@ -172,36 +174,23 @@ fn cepstra(samples: &[f32], values: &mut [f32]) {
             })
         })
         .collect();
-    let mut fourier = Fourier::new();
-    let mut power = [[0.0_f32; BINS]; 2];
-    let count = values.len() / DIMS;
-    for pair in (0..count).step_by(2) {
-        // Two frames are the real and the imaginary part of one transform.
-        let span = |n: usize| {
-            let from = (n * HOP) as isize - (WINDOW / 2) as isize;
-            move |i: usize| usize::try_from(from + i as isize).ok().and_then(|at| samples.get(at)).copied()
-        };
-        let (first, second) = (span(pair), span(pair + 1));
-        let inside = pair * HOP >= WINDOW / 2 && (pair + 1) * HOP + WINDOW / 2 <= samples.len();
-        if inside {
-            let from = pair * HOP - WINDOW / 2;
-            let (a, b) = (&samples[from..from + WINDOW], &samples[from + HOP..from + HOP + WINDOW]);
-            fourier.load(a.iter().zip(b).zip(&window).map(|((a, b), w)| (a * w, b * w)));
-        } else {
-            let value = |i: usize, f: &dyn Fn(usize) -> Option<f32>| f(i).unwrap_or(0.0) * window[i];
-            fourier.load((0..WINDOW).map(|i| (value(i, &first), value(i, &second))));
-        }
-        fourier.powers(&mut power);
-        for (half, power) in power.iter().enumerate() {
-            let Some(out) = values.get_mut((pair + half) * DIMS..(pair + half) * DIMS + CEPSTRA) else { break };
-            let logs: [f32; BANDS] = std::array::from_fn(|b| {
-                let (from, weights) = &bands[b];
-                let sum: f32 = power[*from..*from + weights.len()].iter().zip(weights).map(|(p, w)| p * w).sum();
-                (sum + FLOOR).ln()
-            });
-            for (o, row) in out.iter_mut().zip(&cosines) {
-                *o = row.iter().zip(&logs).map(|(c, l)| c * l).sum();
+    let mut transform = Powers::new(SIZE);
+    for (n, frame) in values.chunks_exact_mut(DIMS).enumerate() {
+        let from = (n * HOP).checked_sub(WINDOW / 2);
+        let power = match from.and_then(|from| samples.get(from..from + WINDOW)) {
+            Some(inside) => transform.of(inside.iter().zip(&window).map(|(s, w)| s * w)),
+            None => {
+                let at = |i: usize| (n * HOP + i).checked_sub(WINDOW / 2).and_then(|at| samples.get(at));
+                transform.of(window.iter().enumerate().map(|(i, w)| at(i).copied().unwrap_or(0.0) * w))
             }
+        };
+        let logs: [f32; BANDS] = std::array::from_fn(|b| {
+            let (from, weights) = &bands[b];
+            let sum: f32 = power[*from..*from + weights.len()].iter().zip(weights).map(|(p, w)| p * w).sum();
+            (sum + FLOOR).ln()
+        });
+        for (o, row) in frame[..CEPSTRA].iter_mut().zip(&cosines) {
+            *o = row.iter().zip(&logs).map(|(c, l)| c * l).sum();
         }
     }
 }
@@ -211,7 +200,7 @@ fn bands() -> Vec<(usize, Vec<f32>)> {
     let mel = |hertz: f64| 2595.0 * (1.0 + hertz / 700.0).log10();
     let edge = |i: usize| {
         let m = mel(LOWEST) + (mel(HIGHEST) - mel(LOWEST)) * i as f64 / (BANDS + 1) as f64;
-        700.0 * (10_f64.powf(m / 2595.0) - 1.0) / f64::from(RATE) * super::fourier::SIZE as f64
+        700.0 * (10_f64.powf(m / 2595.0) - 1.0) / f64::from(RATE) * SIZE as f64
     };
     (0..BANDS)
         .map(|b| {

@@ -11,7 +11,6 @@ pub mod chain;
 mod coarse;
 pub mod confidence;
 pub mod features;
-mod fourier;
 pub mod lasting;
 pub mod model;
 mod outcome;
