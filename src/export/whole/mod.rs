@@ -197,7 +197,8 @@ struct Workshop<'a> {
     output: Output,
     encoder: Option<Ffmpeg>,
     parts: Option<(usize, Rc<Parts>)>,
-    sounds: Vec<(usize, Rc<Encoded>)>,
+    /// The sounds by clip, each with the note on how it is encoded.
+    sounds: Vec<(usize, Rc<Encoded>, Option<Message>)>,
 }
 
 impl<'a> Workshop<'a> {
@@ -214,7 +215,7 @@ impl<'a> Workshop<'a> {
         let one = |ending: &str, bytes: Vec<u8>| vec![File { path: with_ending(base, ending), bytes }];
         let files = match whole.format {
             Format::Smil => {
-                let sound = self.sound(first, notes)?;
+                let sound = self.sound(first, notes);
                 let parts = self.parts(first)?;
                 let title = self.title(clip);
                 let words = smil::Words { title: &title, description: &self.description(clip) };
@@ -286,7 +287,7 @@ impl<'a> Workshop<'a> {
         let mut page = html::Page::default();
         for number in clips {
             let clip = &lesson.clips[*number];
-            let sound = self.sound(*number, notes)?;
+            let sound = self.sound(*number, notes);
             let parts = self.parts(*number)?;
             page.add(&html::Shown {
                 name: &clip.entry.name,
@@ -308,7 +309,7 @@ impl<'a> Workshop<'a> {
         let mut chapters = Vec::new();
         for number in clips {
             let clip = &lesson.clips[*number];
-            let sound = self.sound_of_a_book(*number, notes)?;
+            let sound = self.sound_of_a_book(*number, notes);
             let parts = self.parts(*number)?;
             let (title, description) = (self.title(clip), self.description(clip));
             let words = smil::Words { title: &title, description: &description };
@@ -336,16 +337,16 @@ impl<'a> Workshop<'a> {
     }
 
     /// A sound that readers of books must know: MP3 or AAC. Where no encoder is there, the recording itself may be such.
-    fn sound_of_a_book(&mut self, clip: usize, notes: &mut Vec<Message>) -> Result<Option<Encoded>> {
-        let Some(sound) = self.sound(clip, &mut Vec::new())? else { return Ok(None) };
+    fn sound_of_a_book(&mut self, clip: usize, notes: &mut Vec<Message>) -> Option<Encoded> {
+        let (sound, _) = self.encoded(clip)?;
         if sound.is_for_books() {
-            return Ok(Some((*sound).clone()));
+            return Some((*sound).clone());
         }
         let own = self.lesson.clips[clip].sound_path.as_deref().and_then(sound::own);
         if own.is_none() {
             notes.push("there is no `ffmpeg`, and books take no FLAC: the book has no sound".into());
         }
-        Ok(own)
+        own
     }
 
     /// The clip's figure in parts.
@@ -361,16 +362,22 @@ impl<'a> Workshop<'a> {
     }
 
     /// The clip's sound as small as it gets here; none where it has none.
-    fn sound(&mut self, clip: usize, notes: &mut Vec<Message>) -> Result<Option<Rc<Encoded>>> {
-        if let Some((_, sound)) = self.sounds.iter().find(|(number, _)| *number == clip) {
-            return Ok(Some(Rc::clone(sound)));
+    fn sound(&mut self, clip: usize, notes: &mut Vec<Message>) -> Option<Rc<Encoded>> {
+        let (sound, note) = self.encoded(clip)?;
+        notes.extend(note);
+        Some(sound)
+    }
+
+    /// The clip's sound, and the note on how it is encoded; made once.
+    fn encoded(&mut self, clip: usize) -> Option<(Rc<Encoded>, Option<Message>)> {
+        if let Some((_, sound, note)) = self.sounds.iter().find(|(number, ..)| *number == clip) {
+            return Some((Rc::clone(sound), note.clone()));
         }
-        let Some(sound) = &self.lesson.clips[clip].sound else { return Ok(None) };
+        let sound = self.lesson.clips[clip].sound.as_ref()?;
         let (encoded, note) = sound::encoded(sound, self.encoder.as_ref());
-        let encoded = Rc::new(encoded);
-        notes.extend(note.map(Message::from));
-        self.sounds.push((clip, Rc::clone(&encoded)));
-        Ok(Some(encoded))
+        let (encoded, note) = (Rc::new(encoded), note.map(Message::from));
+        self.sounds.push((clip, Rc::clone(&encoded), note.clone()));
+        Some((encoded, note))
     }
 
     fn shapes(&self, clip: usize, notes: &mut Vec<Message>) -> crate::timing::Timing {
