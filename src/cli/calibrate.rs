@@ -28,7 +28,7 @@ pub struct Args {
 
 /// Calibrates a face and prints how good it is.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
-    let lesson = Lesson::open(&args.project)?;
+    let mut lesson = Lesson::open(&args.project)?;
     if let Some(why) = &lesson.read_only {
         return Err(Fault::new(format!("the calibration cannot be kept: {why}"))
             .at(&args.project)
@@ -40,9 +40,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
             .help("open it in the studio and save or discard them"));
     }
     let number = lesson.face_named(args.face.as_deref()).map_err(Fault::of_the_call)?;
+    let kept = Kept::make(&lesson.faces[number].folder)?;
+    let written = lesson.keep_calibration(number, &kept)?;
     let face = &lesson.faces[number];
-    let kept = Kept::make(&face.folder)?;
-    let written = kept.write(&face.folder)?;
     let made = &kept.made;
     if args.json {
         return writeln!(out, "{}", as_json(&face.entry.name, made)).map_err(output_fault);

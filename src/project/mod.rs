@@ -1,7 +1,7 @@
 //! A lesson: its folder on disk, what is in it, and every change to it as an invertible edit.
 //!
 //! It owns the files of a project and what they mean together; how a face is drawn or a frame written is not its
-//! business. Loading never changes anything on disk.
+//! business. Loading changes nothing on disk but a save that was cut off, which it finishes.
 
 mod align;
 mod brought;
@@ -21,6 +21,7 @@ mod manifest;
 mod said;
 mod quality;
 mod save;
+mod settled;
 mod shots;
 mod times;
 mod tracking;
@@ -28,8 +29,8 @@ mod video;
 
 pub use align::{AlignJob, tiers_of};
 pub use change::{Change, Edit, Spot, Times};
-pub(crate) use check::counted;
 pub use check::{Finding, check, check_quality};
+pub(crate) use check::{counted, unsaved_note};
 pub use clip::{Clip, LABEL_LIMIT};
 pub use create::{Made, NewLesson, create};
 pub use doubts::{Concern, Doubt};

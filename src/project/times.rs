@@ -40,7 +40,12 @@ impl Clip {
         match timing::match_labels(&self.plain, &tier, label_fits, |s| s.text.clone()) {
             Ok(()) => syllables.intervals = tier.spoken().cloned().collect(),
             Err(fault) => {
-                syllables.intervals = self.shared_out(&tier).ok_or(fault)?;
+                syllables.intervals = self.shared_out(&tier).ok_or_else(|| {
+                    let step =
+                        "correct one of them, or move timing.TextGrid away and `lianpu align` finds the times anew";
+                    let help = format!("{}; {step}", fault.next_step());
+                    fault.help(help)
+                })?;
                 self.warnings.push(format!(
                     "its times are those of words or phrases (tier `{}`), which their syllables share; `lianpu align` with `--clip {}` finds them in the sound",
                     tier.name, self.entry.name
