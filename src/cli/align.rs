@@ -86,6 +86,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
 
 fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut lesson = Lesson::open(project)?;
+    super::note_state(&lesson);
     let chosen =
         args.clip.as_deref().map(|name| lesson.clip_named(Some(name))).transpose().map_err(Fault::of_the_call)?;
     if args.without_script {

@@ -29,6 +29,7 @@ pub struct Args {
 /// Calibrates a face and prints how good it is.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut lesson = Lesson::open(&args.project)?;
+    super::note_state(&lesson);
     if let Some(why) = &lesson.read_only {
         return Err(Fault::new(format!("the calibration cannot be kept: {why}"))
             .at(&args.project)

@@ -26,6 +26,7 @@ use std::io::Write;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::disk::{Fault, Result, nearest};
+use crate::project::{Lesson, unsaved_note};
 
 /// A terminal studio that makes a face talk.
 #[derive(Debug, Parser)]
@@ -135,6 +136,16 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
             let help = Cli::command().render_help();
             write!(out, "{help}").map_err(output_fault)
         }
+    }
+}
+
+/// Reports a save that was cut off, and changes of an earlier session that are in no file.
+fn note_state(lesson: &Lesson) {
+    for note in &lesson.notes {
+        eprintln!("note: {note}");
+    }
+    if lesson.unsaved > 0 {
+        eprintln!("note: {}", unsaved_note(lesson.unsaved));
     }
 }
 

@@ -55,6 +55,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
 
 fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write) -> Result<()> {
     let mut lesson = Lesson::open(project)?;
+    super::note_state(&lesson);
     let chosen =
         args.clip.as_deref().map(|name| lesson.clip_named(Some(name))).transpose().map_err(Fault::of_the_call)?;
     if let Some(why) = &lesson.read_only {

@@ -226,15 +226,19 @@ fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> 
 /// Writes a clip's files in a draft.
 fn save_clip(lesson: &mut Lesson, number: usize) -> Result<()> {
     let Lesson { root, clips, .. } = lesson;
-    in_draft(root, |commit| clips[number].stage(commit))
+    let sums = in_draft(root, |commit| clips[number].stage(commit))?;
+    clips[number].written(&sums);
+    Ok(())
 }
 
-/// Writes files in a draft, which nobody reads before it has its name.
-fn in_draft(draft: &Path, stage: impl FnOnce(&mut Commit) -> Result<()>) -> Result<()> {
+/// Writes files in a draft, which nobody reads before it has its name; their sums.
+fn in_draft(draft: &Path, stage: impl FnOnce(&mut Commit) -> Result<()>) -> Result<Sums> {
     let (own, like, none) = (draft.join(OWN_FOLDER), draft.join(MANIFEST), Sums::new());
     let mut commit = Commit::new(draft, &own, &like, &none);
     stage(&mut commit)?;
-    commit.run_unrecorded(&mut SystemCalls)
+    let sums = commit.sums().clone();
+    commit.run_unrecorded(&mut SystemCalls)?;
+    Ok(sums)
 }
 
 /// Follows the faces in a new lesson's videos. A video in which that fails is no reason not to make a lesson of it.

@@ -44,6 +44,11 @@ impl Journal {
         &self.path
     }
 
+    /// Whether its file is open: one that is not is opened by its path, where another project may lie by then.
+    pub(super) fn is_open(&self) -> bool {
+        self.file.is_some()
+    }
+
     /// Notes a change that was made.
     pub(super) fn note(&mut self, change: &Change) -> Result<()> {
         let cannot = |e| Fault::io("cannot write the journal", &self.path, e);

@@ -210,6 +210,9 @@ impl Lesson {
 
     /// Applies a change and notes it in the journal: both or neither.
     fn make(&mut self, change: &Change) -> Result<()> {
+        if self.journal.as_ref().is_some_and(|journal| !journal.is_open()) {
+            self.hold()?;
+        }
         self.apply(change)?;
         let noted = self.journal.as_mut().map_or(Ok(()), |journal| journal.note(change));
         if noted.is_err() {

@@ -81,7 +81,7 @@ impl Lesson {
     }
 
     /// Makes sure that the lesson is still where it was opened, and that nobody else has it.
-    fn hold(&mut self) -> Result<()> {
+    pub(super) fn hold(&mut self) -> Result<()> {
         if self.held.as_ref().is_some_and(|held| !held.is_at(&self.root)) {
             return Err(Fault::new(
                 "the lesson's folder was moved or removed while it was open, so nothing is saved here",

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::show::Show;
 use crate::disk::{Fault, Result};
 use crate::export::{Asked, Ledger, Request, Shard, Share, asked, divide, export};
-use crate::project::{Clip, Lesson, unsaved_note};
+use crate::project::{Clip, Lesson};
 
 /// What is done with each lesson.
 pub(super) struct Course<'a> {
@@ -95,7 +95,7 @@ impl Course<'_> {
 
     fn lesson(&self, project: &Path, request: &Request, ledger: &mut Ledger, out: &mut dyn Write) -> Result<()> {
         let mut lesson = Lesson::read(project)?;
-        note_state(&lesson);
+        crate::cli::note_state(&lesson);
         let clips = asked(&lesson, request)?;
         let wanted = wanted(&lesson, request);
         crate::cli::align::find_missing(&mut lesson, &wanted);
@@ -137,16 +137,6 @@ fn wanted(lesson: &Lesson, request: &Request) -> Vec<usize> {
     let together =
         request.formats.iter().any(|f| f.is_of_the_lesson()) && shares.first().is_some_and(|s| s.whole_files);
     asked.into_iter().zip(shares).filter(|(_, share)| together || !share.is_empty()).map(|(n, _)| n).collect()
-}
-
-/// A save that was cut off, and changes that are in no file.
-fn note_state(lesson: &Lesson) {
-    for note in &lesson.notes {
-        eprintln!("note: {note}");
-    }
-    if lesson.unsaved > 0 {
-        eprintln!("note: {}", unsaved_note(lesson.unsaved));
-    }
 }
 
 /// Frames drawn from guessed times look as sure as any others, so it is said.
