@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::lesson::unsaved_in;
+use super::open::unsaved_in;
 use super::settled::read_settled;
 use super::{Clip, LessonFace, MANIFEST, Manifest, figures, quality};
 use crate::disk::{Fault, Pending, read_bytes};

@@ -18,6 +18,7 @@ mod journal;
 mod label;
 mod lesson;
 mod manifest;
+mod open;
 mod said;
 mod quality;
 mod save;

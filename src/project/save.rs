@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::journal::Journal;
+use super::open::{elsewhere, refusal};
 use super::settled::{LOCK, OWN_FOLDER};
 use super::{Change, Clip, Edit, Lesson, LessonFace, MANIFEST};
 use crate::disk::{Calls, Commit, Committed, Fault, Lock, Result, Sum, Sums, SystemCalls, end_commit};
@@ -48,7 +49,7 @@ impl Lesson {
         stage: impl FnOnce(&mut Self, &mut Commit) -> Result<()>,
     ) -> Result<Vec<PathBuf>> {
         if let Some(why) = &self.read_only {
-            return Err(super::lesson::refusal("saved", why));
+            return Err(refusal("saved", why));
         }
         self.hold()?;
         let (root, own, like) = (self.root.clone(), self.root.join(OWN_FOLDER), self.root.join(MANIFEST));
@@ -99,7 +100,7 @@ impl Lesson {
                 self.lock = Some(lock);
                 Ok(())
             }
-            None => Err(super::lesson::refusal("saved", &super::lesson::elsewhere(&path))),
+            None => Err(refusal("saved", &elsewhere(&path))),
         }
     }
 
@@ -109,7 +110,7 @@ impl Lesson {
     /// When the lesson is read-only, has changes that are not in its files, or the file cannot be written.
     pub fn write_face(&mut self, number: usize, face: &Face) -> Result<bool> {
         if let Some(why) = &self.read_only {
-            return Err(super::lesson::refusal("changed", why));
+            return Err(refusal("changed", why));
         }
         if self.is_unsaved() {
             return Err(Fault::new("the lesson has changes that were never saved")
