@@ -76,10 +76,15 @@ fn a_video_is_followed_kept_and_never_over_what_somebody_set() {
     assert_ne!(ratios(), found);
 }
 
+/// Writes a calibration of the lesson's face.
+fn keep(root: &Path, kept: &Kept) {
+    Lesson::open(root).unwrap().keep_calibration(0, kept).unwrap();
+}
+
 #[test]
 fn what_was_followed_is_a_change_like_any_other() {
     let (_room, root) = copied();
-    Kept::make(&root.join("faces/teacher")).unwrap().write(&root.join("faces/teacher")).unwrap();
+    keep(&root, &Kept::make(&root.join("faces/teacher")).unwrap());
     let record = root.join("clips/xiyang/ratios.csv");
     let mut lesson = Lesson::open(&root).unwrap();
     let found = TrackJob::of(&lesson, 0, Method::Aam, Options::default()).unwrap().run(&mut |_, _| true).unwrap();
@@ -110,7 +115,7 @@ fn a_calibration_outlives_its_photos() {
     let (_room, root) = copied();
     let face = root.join("faces/teacher");
     let made = Kept::make(&face).unwrap();
-    made.write(&face).unwrap();
+    keep(&root, &made);
     for entry in std::fs::read_dir(&face).unwrap().flatten() {
         if entry.path().extension().is_some_and(|e| e == "png" || e == "jpg") {
             std::fs::remove_file(entry.path()).unwrap();

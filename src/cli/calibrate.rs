@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::output_fault;
 use crate::disk::{Fault, Result};
-use crate::emotion::{Calibrated, Kept, Source};
+use crate::emotion::{Calibrated, Source};
 use crate::pose::Emotion;
 use crate::project::Lesson;
 
@@ -28,21 +28,11 @@ pub struct Args {
 
 /// Calibrates a face and prints how good it is.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
-    let lesson = Lesson::open(&args.project)?;
-    if let Some(why) = &lesson.read_only {
-        return Err(Fault::new(format!("the calibration cannot be kept: {why}"))
-            .at(&args.project)
-            .help("open it where it can be written"));
-    }
-    if lesson.is_unsaved() {
-        return Err(Fault::new("the lesson has changes that were never saved")
-            .at(&args.project)
-            .help("open it in the studio and save or discard them"));
-    }
+    let mut lesson = Lesson::open_to_write(&args.project, "the calibration")?;
+    super::note_state(&lesson);
     let number = lesson.face_named(args.face.as_deref()).map_err(Fault::of_the_call)?;
+    let (kept, written) = lesson.calibrate(number)?;
     let face = &lesson.faces[number];
-    let kept = Kept::make(&face.folder)?;
-    let written = kept.write(&face.folder)?;
     let made = &kept.made;
     if args.json {
         return writeln!(out, "{}", as_json(&face.entry.name, made)).map_err(output_fault);

@@ -114,6 +114,7 @@ pub(super) fn anchors(texts: &[String]) -> Result<Option<Anchors>> {
 /// Finds the face of a project anew and writes its face.toml; what was done, in words.
 fn of_project(project: &Path, args: &Args, anchors: Option<&Anchors>) -> Result<(Photo, Created, Option<String>)> {
     let mut lesson = Lesson::open(project)?;
+    super::note_state(&lesson);
     let number = lesson.face_named(args.face.as_deref()).map_err(Fault::of_the_call)?;
     let face = &lesson.faces[number];
     let path = face.photo.clone().ok_or_else(|| no_photo(face))?;

@@ -27,6 +27,7 @@ use std::io::Write;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::disk::{Fault, Result, suggestion};
+use crate::project::Lesson;
 
 /// A terminal studio that makes a face talk.
 #[derive(Debug, Parser)]
@@ -150,6 +151,11 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
     // The parser lets nothing through but these names.
     PossibleValuesParser::new(all.map(name))
         .map(move |word| all.into_iter().find(|v| name(*v) == word).unwrap_or(all[0]))
+}
+
+/// Reports a save that was cut off, and changes of an earlier session that are in no file.
+fn note_state(lesson: &Lesson) {
+    lesson.state_notes().iter().for_each(wording::note);
 }
 
 /// What a failed write to standard output is called.

@@ -3,20 +3,30 @@
 //!
 //! It knows nothing of what the files mean.
 
+mod calls;
+mod commit;
 mod csv;
 mod fault;
+mod lock;
 mod message;
 mod nearest;
 mod next_step;
 mod paths;
 mod program;
 mod read;
+mod record;
+mod recover;
+mod rights;
+mod sum;
 mod temporary;
 mod toml;
 mod write;
 
+pub use calls::{Calls, Handle, SystemCalls};
+pub use commit::{Commit, Committed, Sums};
 pub(crate) use csv::{CsvRow, CsvTable};
 pub use fault::{Fault, FaultKind, Result};
+pub use lock::{HeldFolder, Lock};
 pub(crate) use message::message;
 pub use message::{Message, Part};
 pub use nearest::{nearest, suggestion};
@@ -24,6 +34,10 @@ pub use next_step::{NextStep, Setting, Task};
 pub use paths::{inside, plain_name};
 pub use program::{Ended, Messages, Pipe, Program, Running};
 pub use read::{MAX_TEXT_BYTES, clean, clean_line, read_bytes, read_old, read_text};
-pub use temporary::{clear_temporaries, temporary_in, temporary_prefix};
+pub use record::commit_stamp;
+pub use recover::{Pending, end_commit, is_commit_open};
+pub use rights::Rights;
+pub use sum::Sum;
+pub use temporary::{clear_temporaries, has_temporaries, is_temporary, temporary_in, temporary_prefix};
 pub use toml::from_toml;
-pub use write::{Lock, put_whole, replace, write_whole};
+pub use write::{put_whole, replace, write_whole};

@@ -37,19 +37,42 @@ pub fn temporary_in(folder: &Path, ending: &str) -> std::io::Result<NamedTempFil
     builder.tempfile_in(folder)
 }
 
-/// Removes what programs that were killed have left in a folder. Files of those that still run are not touched, here or on
-/// another machine that shares the folder.
+/// Removes the files and folders that killed programs have left in a folder. Files of those that still run are not
+/// touched, here or on another machine that shares the folder.
 pub fn clear_temporaries(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let Some(rest) = name.to_str().and_then(|n| n.strip_prefix(MARK)) else { continue };
-        let is_file = entry.file_type().is_ok_and(|t| t.is_file());
-        if is_file && (is_dead(rest) || is_forgotten(&entry)) {
-            // Whoever else clears the same folder may have been faster.
-            let _ = fs::remove_file(entry.path());
-        }
+    for entry in left_in(folder) {
+        // Whoever else clears the same folder may have been faster.
+        let _ = match entry.file_type() {
+            Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
+            _ => fs::remove_file(entry.path()),
+        };
     }
+}
+
+/// Whether a name is that of a temporary file or folder.
+#[must_use]
+pub fn is_temporary(name: &str) -> bool {
+    name.starts_with(MARK)
+}
+
+/// Whether killed programs have left something in a folder.
+#[must_use]
+pub fn has_temporaries(folder: &Path) -> bool {
+    left_in(folder).next().is_some()
+}
+
+fn left_in(folder: &Path) -> impl Iterator<Item = fs::DirEntry> {
+    let is_left = |entry: &fs::DirEntry| {
+        let name = entry.file_name();
+        let Some(rest) = name.to_str().and_then(|n| n.strip_prefix(MARK)) else { return false };
+        match entry.file_type() {
+            Ok(kind) if kind.is_file() => is_dead(rest) || is_forgotten(entry),
+            // A folder is filled for hours without a change of its own.
+            Ok(kind) if kind.is_dir() => is_dead(rest),
+            _ => false,
+        }
+    };
+    fs::read_dir(folder).into_iter().flatten().flatten().filter(is_left)
 }
 
 /// Whether a name's process was on this machine and is no more.
@@ -98,7 +121,11 @@ mod tests {
         put(&format!("{MARK}ffffffff-4294967295-abc.png"));
         put(&format!("{MARK}old"));
         put("lesson.html");
+        let draft = |process: u64| folder.path().join(format!("{MARK}{}-{process}-new", machine()));
+        fs::create_dir_all(draft(4_294_967_295).join("clips")).unwrap();
+        fs::create_dir(draft(u64::from(std::process::id()))).unwrap();
         clear_temporaries(folder.path());
+        fs::remove_dir(draft(u64::from(std::process::id()))).unwrap();
         let mut left: Vec<String> =
             fs::read_dir(folder.path()).unwrap().flatten().map(|e| e.file_name().into_string().unwrap()).collect();
         left.sort();

@@ -1,6 +1,6 @@
-//! Saving: a file is there whole or not at all. And the lock that keeps two studios off one lesson.
+//! Saving: a file is there whole or not at all.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -59,42 +59,13 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
 }
 
 #[cfg(unix)]
-fn sync_folder(folder: &Path) -> std::io::Result<()> {
-    File::open(folder)?.sync_all()
+pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
+    fs::File::open(folder)?.sync_all()
 }
 
 #[cfg(not(unix))]
-fn sync_folder(_folder: &Path) -> std::io::Result<()> {
+pub(super) fn sync_folder(_folder: &Path) -> std::io::Result<()> {
     Ok(())
-}
-
-/// Held while a lesson is open for writing; let go when dropped or when the program ends, however it ends.
-#[derive(Debug)]
-pub struct Lock {
-    _file: File,
-}
-
-impl Lock {
-    /// Takes the lock at `path`, or `None` where another program holds it.
-    ///
-    /// # Errors
-    /// When the lock's file cannot be made.
-    pub fn take(path: &Path) -> Result<Option<Self>> {
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
-        }
-        let file = OpenOptions::new()
-            .create(true)
-            .truncate(false)
-            .write(true)
-            .open(path)
-            .map_err(|e| Fault::io("cannot make the lock", path, e))?;
-        match file.try_lock() {
-            Ok(()) => Ok(Some(Self { _file: file })),
-            Err(TryLockError::WouldBlock) => Ok(None),
-            Err(TryLockError::Error(e)) => Err(Fault::io("cannot take the lock", path, e)),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -109,15 +80,5 @@ mod tests {
         write_whole(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
-    }
-
-    #[test]
-    fn a_second_lock_is_refused_until_the_first_is_let_go() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("lock");
-        let first = Lock::take(&path).unwrap().unwrap();
-        assert!(Lock::take(&path).unwrap().is_none());
-        drop(first);
-        assert!(Lock::take(&path).unwrap().is_some());
     }
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::manifest::{Entry, Manifest};
 use super::{Shard, divide};
-use crate::disk::{Fault, Message, Result, Setting, Task, message};
+use crate::disk::{Fault, Message, Result, Setting, Task, clear_temporaries, message};
 
 /// What joining found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,6 +55,7 @@ pub fn merge(folder: &Path) -> Result<Merged> {
     if let Ok(earlier) = Manifest::read(&folder.join(Manifest::name(Shard::WHOLE))) {
         whole = whole.beside(earlier, folder);
     }
+    clear_temporaries(folder);
     let path = whole.write(folder)?;
     Ok(done(path, count, &whole))
 }

@@ -252,6 +252,11 @@ impl Edit {
         }
     }
 
+    /// Whether what it says is to be is what is, so that it can be taken back.
+    pub(super) fn is_made(&self, clips: &[Clip], faces: &[LessonFace]) -> bool {
+        self.inverse().apply(&mut clips.to_vec(), &mut faces.to_vec()).is_ok()
+    }
+
     /// Makes the edit. What it says was must be what is.
     pub(super) fn apply(&self, clips: &mut [Clip], faces: &mut [LessonFace]) -> Result<()> {
         match self {

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use super::open::unsaved_in;
+use super::settled::read_settled;
 use super::{Clip, LessonFace, MANIFEST, Manifest, figures, quality};
-use crate::disk::{Fault, Message, Task, message, read_bytes};
+use crate::disk::{Fault, Message, Pending, Task, message, read_bytes};
 use crate::emotion::ShotFiles;
 use crate::face::{FeaturePoint, How};
 use crate::figure::Figure;
@@ -42,6 +44,33 @@ fn find(root: &Path, more: impl Fn(&Clip) -> Vec<Finding>) -> Vec<Finding> {
         Ok(manifest) => manifest,
         Err(fault) => return vec![Finding::Wrong(fault)],
     };
+    match read_settled(root, |pending| of_files(root, &manifest, pending, &more)) {
+        Ok((mut found, notes)) => {
+            found.extend(notes.into_iter().map(Finding::Odd));
+            match unsaved_in(root) {
+                Ok(0) => {}
+                Ok(count) => found.push(Finding::Odd(unsaved_note(count))),
+                Err(fault) => found.push(Finding::Wrong(fault)),
+            }
+            found
+        }
+        Err(fault) => vec![Finding::Wrong(fault)],
+    }
+}
+
+/// The remark that an earlier session has left changes that are in no file.
+pub(super) fn unsaved_note(count: usize) -> Message {
+    let changes = counted(count, "unsaved change");
+    let open = format!("{changes} of an earlier session: open it in ");
+    message![open, Task::Open, " to bring them back, and save or discard them"]
+}
+
+fn of_files(
+    root: &Path,
+    manifest: &Manifest,
+    pending: &Pending,
+    more: &impl Fn(&Clip) -> Vec<Finding>,
+) -> Vec<Finding> {
     let mut found = vec![Finding::Fine(format!(
         "{}: “{}”, {} at {} frames a second, {} × {}",
         MANIFEST,
@@ -55,13 +84,13 @@ fn find(root: &Path, more: impl Fn(&Clip) -> Vec<Finding>) -> Vec<Finding> {
         found.push(Finding::Odd("there are no clips yet: add a [[clip]]".into()));
     }
     for entry in &manifest.clips {
-        match Clip::read(root, entry) {
+        match Clip::read(root, entry, pending) {
             Ok(clip) => found.extend(of_clip(&clip).into_iter().chain(more(&clip))),
             Err(fault) => found.push(Finding::Wrong(fault)),
         }
     }
     for entry in &manifest.faces {
-        match LessonFace::read(root, entry) {
+        match LessonFace::read(root, entry, pending) {
             Ok(face) => found.extend(of_face(root, &face)),
             Err(fault) => found.push(Finding::Wrong(fault)),
         }

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::change::Times;
+use super::change::{Change, Edit, Times};
 use super::label::label_reading;
 use super::manifest::ClipEntry;
+use super::save::sum_of;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
 use super::video;
-use crate::disk::{Fault, Message, Result, Task, inside, message, read_text};
+use crate::disk::{Fault, Message, Pending, Result, Sum, Task, inside, message, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
@@ -46,7 +47,7 @@ pub struct Clip {
     pub score: Score,
     /// What is odd but not wrong, for the author to know.
     pub warnings: Vec<Message>,
-    /// Checksums of the files that saving writes, as they were read.
+    /// Sums of the files that saving writes, as they were read.
     pub(super) seen: Seen,
     /// The script's own syllables, before labels gave other readings.
     pub(super) plain: Vec<Syllable>,
@@ -63,19 +64,47 @@ pub struct Clip {
 /// What the files that saving writes looked like when they were last read or written; none where there was none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Seen {
-    pub(super) script: Option<u32>,
-    pub(super) timing: Option<u32>,
-    pub(super) score: Option<u32>,
-    pub(super) ratios: Option<u32>,
-    pub(super) tracks: Option<u32>,
+    pub(super) script: Option<Sum>,
+    pub(super) timing: Option<Sum>,
+    pub(super) score: Option<Sum>,
+    pub(super) ratios: Option<Sum>,
+    pub(super) tracks: Option<Sum>,
 }
 
 impl Clip {
-    /// Reads a clip of the project in `root`.
+    /// Reads a clip of the project in `root`, through the paths of `pending`.
     ///
     /// # Errors
     /// When one of its files is damaged, or the times do not fit the script.
-    pub fn read(root: &Path, entry: &ClipEntry) -> Result<Self> {
+    pub fn read(root: &Path, entry: &ClipEntry, pending: &Pending) -> Result<Self> {
+        Self::read_as(root, entry, pending, None)
+    }
+
+    /// Reads a clip, number `number`, whose changes in the journal are `left`. Where its script has them already and its
+    /// times do not, the script is taken as it was before: a save of an earlier version that was cut off leaves that.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub(super) fn read_before(
+        root: &Path,
+        entry: &ClipEntry,
+        pending: &Pending,
+        number: usize,
+        left: &[Change],
+    ) -> Result<Self> {
+        let read = Self::read(root, entry, pending);
+        let first = left.iter().flat_map(|change| &change.edits).find_map(|edit| match edit {
+            Edit::Said { clip, before, .. } if *clip == number => Some(before),
+            _ => None,
+        });
+        match (read, first) {
+            (Err(fault), Some(first)) => Self::read_as(root, entry, pending, Some(&first.script)).map_err(|_| fault),
+            (read, _) => read,
+        }
+    }
+
+    /// Reads a clip with the text `instead` in place of its script's.
+    fn read_as(root: &Path, entry: &ClipEntry, pending: &Pending, instead: Option<&str>) -> Result<Self> {
         let folder = inside(root, &format!("clips/{}", entry.name))?;
         if !folder.is_dir() {
             return Err(Fault::new(format!("the clip `{}` has no folder", entry.name))
@@ -84,7 +113,7 @@ impl Clip {
         }
         let file = |name: &str| -> Result<Option<PathBuf>> {
             let path = inside(root, &format!("clips/{}/{name}", entry.name))?;
-            Ok(path.is_file().then_some(path))
+            Ok(pending.at(&path))
         };
         let text = |name: &str| -> Result<Option<(PathBuf, String)>> {
             file(name)?.map(|path| read_text(&path).map(|text| (path, text))).transpose()
@@ -109,11 +138,15 @@ impl Clip {
             sound_seconds: 0.0,
             video_seconds: 0.0,
         };
-        if let Some((path, script)) = text("script.txt")? {
+        if let Some((path, mut script)) = text("script.txt")? {
+            clip.seen.script = sum_of(&path);
+            clip.kept_script.clone_from(&script);
+            if let Some(before) = instead {
+                before.clone_into(&mut script);
+            }
             let system = entry.script_system.unwrap_or(System::Auto);
             clip.plain = script::syllables(&script, system).map_err(|f| f.at(&path))?;
             clip.script = script;
-            clip.seen.script = super::save::checksum(&path);
         }
         if let Some(path) = &clip.sound_path {
             let sound = Sound::read(path)?;
@@ -124,16 +157,16 @@ impl Clip {
         let mut ratios = None;
         if let Some((path, text)) = text("ratios.csv")? {
             clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
-            clip.seen.ratios = super::save::checksum(&path);
+            clip.seen.ratios = sum_of(&path);
             ratios = Some(text);
         }
         if let Some((path, text)) = text("tracks.csv")? {
             clip.tracks = Some(Tracks::parse(&text).map_err(|f| f.at(&path))?);
-            clip.seen.tracks = super::save::checksum(&path);
+            clip.seen.tracks = sum_of(&path);
         }
         if let Some((path, text)) = text("score.toml")? {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
-            clip.seen.score = super::save::checksum(&path);
+            clip.seen.score = sum_of(&path);
         }
         if let Some(ratios) = &ratios {
             clip.disown(ratios);
@@ -147,7 +180,7 @@ impl Clip {
         }
         match file("timing.TextGrid")? {
             Some(path) => {
-                clip.seen.timing = super::save::checksum(&path);
+                clip.seen.timing = sum_of(&path);
                 let timing = timing::read(&path)?;
                 if clip.is_of_an_older_script(&timing) {
                     clip.carry_over(timing);
@@ -161,7 +194,9 @@ impl Clip {
             None => clip.guess(),
         }
         clip.read_labels();
-        clip.kept_script.clone_from(&clip.script);
+        if instead.is_none() {
+            clip.kept_script.clone_from(&clip.script);
+        }
         if clip.duration() <= 0.0 {
             return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
                 .at(&folder)

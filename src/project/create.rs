@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 use super::brought::{Brought, copy_video, frame_of, write_face};
 use super::clip::SOUNDS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
+use super::settled::OWN_FOLDER;
 use super::video::FRAMES_FPS;
 use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{
-    Fault, Message, Result, Setting, Task, clean_line, message, plain_name, read_bytes, read_text, write_whole,
+    Commit, Fault, Message, Result, Setting, Sums, SystemCalls, Task, clean_line, clear_temporaries, message,
+    plain_name, read_bytes, read_text, temporary_prefix, write_whole,
 };
 use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
@@ -137,8 +139,9 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
         .map(|(e, path)| Ok((*e, Brought::read(path)?)))
         .collect::<Result<Vec<(Emotion, Brought)>>>()?;
     std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
+    clear_temporaries(parent);
     let draft = tempfile::Builder::new()
-        .prefix(".lianpu-new-")
+        .prefix(&temporary_prefix())
         .tempdir_in(parent)
         .map_err(|e| Fault::io("cannot make the lesson's folder", parent, e))?;
     let clip = ClipEntry {
@@ -192,12 +195,12 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
     if root.exists() {
         std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
     }
+    open_to_others(draft.path());
     let made = draft.keep();
     std::fs::rename(&made, root).map_err(|e| {
         let _ = std::fs::remove_dir_all(&made);
         Fault::io("cannot make the lesson's folder", root, e)
     })?;
-    open_to_others(root);
     let warnings = face.map_or_else(Vec::new, |(_, created)| created.warnings);
     Ok(Made { lesson: Lesson::read(root)?, warnings, notes, calibration })
 }
@@ -215,7 +218,7 @@ fn find_times(lesson: &mut Lesson) -> Result<Vec<Message>> {
                 let said = found.notes.iter().filter(|n| !matches!(n, Note::Noisy { .. }));
                 notes.extend(said.map(|n| n.to_string().into()));
                 lesson.take_alignment(number, &found);
-                lesson.clips[number].save()?;
+                save_clip(lesson, number)?;
             }
             Err(fault) => notes.push(fault.to_message().after("its times could not be found: ")),
         }
@@ -229,8 +232,26 @@ fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> 
         return Ok(None);
     };
     let kept = Kept::make(&face.folder).map_err(|f| of_inputs(&f, new))?;
-    kept.write(&face.folder)?;
+    in_draft(&lesson.root, |commit| kept.stage(&face.folder, commit))?;
     Ok(Some(kept.made.quality))
+}
+
+/// Writes a clip's files in a draft.
+fn save_clip(lesson: &mut Lesson, number: usize) -> Result<()> {
+    let Lesson { root, clips, .. } = lesson;
+    let sums = in_draft(root, |commit| clips[number].stage(commit))?;
+    clips[number].written(&sums);
+    Ok(())
+}
+
+/// Writes files in a draft, which nobody reads before it has its name; their sums.
+fn in_draft(draft: &Path, stage: impl FnOnce(&mut Commit) -> Result<()>) -> Result<Sums> {
+    let (own, like, none) = (draft.join(OWN_FOLDER), draft.join(MANIFEST), Sums::new());
+    let mut commit = Commit::new(draft, &own, &like, &none);
+    stage(&mut commit)?;
+    let sums = commit.sums().clone();
+    commit.run_unrecorded(&mut SystemCalls)?;
+    Ok(sums)
 }
 
 /// Follows the faces in a new lesson's videos. A video in which that fails is no reason not to make a lesson of it.
@@ -244,7 +265,7 @@ fn follow_faces(lesson: &mut Lesson, go_on: &mut dyn FnMut(usize, Option<usize>)
                 notes.extend(followed.tracked.notes.iter().cloned());
                 lesson.take_tracked(number, followed.tracked, &followed.checksum);
                 lesson.clips[number].footage_changed = true;
-                lesson.clips[number].save()?;
+                save_clip(lesson, number)?;
             }
             Err(fault) => {
                 let what = fault.in_a_line().after("the face in its video could not be followed: ");

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::manifest::FaceEntry;
-use super::save::checksum;
+use super::save::sum_of;
 use super::shots::{FaceShot, shots_of};
-use crate::disk::{Result, inside, read_text};
+use crate::disk::{Pending, Result, Sum, inside, read_text};
 use crate::emotion::{CALIBRATION, CalibrationFile};
 use crate::face::{Face, create};
 use crate::photo::Photo;
@@ -34,18 +34,19 @@ pub struct LessonFace {
     pub damage: Option<String>,
     /// The shots of the emotions in canonical order; the first has nothing, the neutral one is `photo` and `face`.
     pub shots: Box<[FaceShot; 7]>,
-    /// The checksum of `face.toml` as it was last read or written.
-    pub(super) seen: Option<u32>,
+    /// The sum of `face.toml` as it was last read or written.
+    pub(super) seen: Option<Sum>,
     /// The face as the file has it.
     pub(super) written: Option<Face>,
 }
 
 impl LessonFace {
-    /// Reads a face of the project in `root`. A face without files is one: a line figure needs none.
+    /// Reads a face of the project in `root`, through the paths of `pending`. A face without files is one: a line figure
+    /// needs none.
     ///
     /// # Errors
     /// When its `face.toml` is damaged, or a name leads out of the project.
-    pub fn read(root: &Path, entry: &FaceEntry) -> Result<Self> {
+    pub fn read(root: &Path, entry: &FaceEntry, pending: &Pending) -> Result<Self> {
         let folder = inside(root, &format!("faces/{}", entry.name))?;
         let mut photo = None;
         for name in NEUTRAL {
@@ -55,18 +56,18 @@ impl LessonFace {
             }
         }
         let path = inside(root, &format!("faces/{}/{FACE_FILE}", entry.name))?;
-        let (face, seen) = match path.is_file() {
-            true => (Some(Face::parse(&read_text(&path)?).map_err(|f| f.at(&path))?), checksum(&path)),
-            false => (None, None),
+        let (face, seen) = match pending.at(&path) {
+            Some(file) => (Some(Face::parse(&read_text(&file)?).map_err(|f| f.at(&path))?), sum_of(&file)),
+            None => (None, None),
         };
         let path = inside(root, &format!("faces/{}/{CALIBRATION}", entry.name))?;
         // A damaged calibration is made anew; it is no reason not to open a lesson.
-        let (calibration, damage) = match path.is_file().then(|| CalibrationFile::read(&path)) {
+        let (calibration, damage) = match pending.at(&path).map(|file| CalibrationFile::read(&file)) {
             Some(Ok(file)) => (Some(Box::new(file)), None),
             Some(Err(fault)) => (None, Some(fault.what().to_owned())),
             None => (None, None),
         };
-        let shots = Box::new(shots_of(root, &entry.name)?);
+        let shots = Box::new(shots_of(root, &entry.name, pending)?);
         Ok(Self { entry: entry.clone(), folder, written: face.clone(), face, photo, calibration, damage, shots, seen })
     }
 

@@ -1,13 +1,11 @@
 //! What tracking found in a clip's video, as one edit takes it and as the clip's files keep it.
 
-use std::path::PathBuf;
-
 use serde::{Deserialize, Serialize};
 
 use super::change::stale;
-use super::save::{checksum, remove, write_changed};
+use super::save::{RATIOS, TRACKS};
 use super::{Change, Clip, Edit, Lesson, counted};
-use crate::disk::{NextStep, Result, Setting, Task, message};
+use crate::disk::{Commit, NextStep, Result, Setting, Task, message};
 use crate::emotion::{Record, Tracks};
 use crate::track::Tracked;
 
@@ -54,29 +52,21 @@ impl Clip {
         Ok(())
     }
 
-    /// Writes `ratios.csv` and `tracks.csv` where an edit has changed them, and removes what an undo has taken back.
-    pub(super) fn save_footage(&mut self) -> Result<Vec<PathBuf>> {
+    /// Adds `ratios.csv` and `tracks.csv` where an edit has changed them, and the removal of what an undo has taken back.
+    pub(super) fn stage_footage(&self, commit: &mut Commit) -> Result<()> {
         if !self.footage_changed {
-            return Ok(Vec::new());
+            return Ok(());
         }
         let Footage { ratios, tracks, .. } = self.footage();
-        let mut written = Vec::new();
-        for (name, text, seen) in
-            [("ratios.csv", ratios, &mut self.seen.ratios), ("tracks.csv", tracks, &mut self.seen.tracks)]
-        {
+        for (name, text, seen) in [(RATIOS, ratios, self.seen.ratios), (TRACKS, tracks, self.seen.tracks)] {
             let path = self.folder.join(name);
             match text {
-                Some(text) => written.extend(write_changed(path, &text, seen)?),
-                None if seen.is_some() && checksum(&path) == *seen => {
-                    remove(&path)?;
-                    *seen = None;
-                    written.push(path);
-                }
+                Some(text) => commit.put(&path, text, seen)?,
+                None if seen.is_some() => commit.remove(&path, seen)?,
                 None => {}
             }
         }
-        self.footage_changed = false;
-        Ok(written)
+        Ok(())
     }
 }
 

@@ -2,21 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use super::check::unsaved_note;
 use super::figures;
 use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
+use super::open::refusal;
 use super::{Change, Clip, LessonFace};
-use crate::disk::{Fault, Lock, Result, suggestion};
+use crate::disk::{Fault, HeldFolder, Lock, Message, Result, Sums, is_temporary, suggestion};
 use crate::figure::Figure;
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
-
-/// The folder of what the program keeps for itself.
-pub(super) const OWN_FOLDER: &str = ".lianpu";
-
-/// Where changes are kept that do not fit the files any more.
-const LOST: &str = "journal.lost";
 
 /// A lesson that is open.
 #[derive(Debug)]
@@ -35,70 +31,25 @@ pub struct Lesson {
     pub recovered: usize,
     /// How many did not fit the files any more; they are kept in `.lianpu/journal.lost`.
     pub lost: usize,
+    /// How many unsaved changes an earlier session has left, where the lesson was opened to be read: they are not in it.
+    pub unsaved: usize,
+    /// What became of a save that was cut off, for the author to know.
+    pub notes: Vec<Message>,
     pub(super) history: History,
     pub(super) journal: Option<Journal>,
     pub(super) lock: Option<Lock>,
+    /// Its folder, so that another one at its path is noticed.
+    pub(super) held: Option<HeldFolder>,
+    /// The sums of files that a save has sent without knowing that they arrived.
+    pub(super) sent: Sums,
 }
 
 impl Lesson {
-    /// Reads a lesson to look at and export. Nothing is locked and nothing on disk changes.
-    ///
-    /// # Errors
-    /// When the manifest or a clip is damaged.
-    pub fn read(root: &Path) -> Result<Self> {
-        let manifest = Manifest::read(root)?;
-        let clips = manifest.clips.iter().map(|entry| Clip::read(root, entry)).collect::<Result<Vec<_>>>()?;
-        let faces = manifest.faces.iter().map(|entry| LessonFace::read(root, entry)).collect::<Result<Vec<_>>>()?;
-        Ok(Self {
-            root: root.to_owned(),
-            manifest,
-            clips,
-            faces,
-            read_only: Some("it was opened to be read".into()),
-            recovered: 0,
-            lost: 0,
-            history: History::default(),
-            journal: None,
-            lock: None,
-        })
-    }
-
-    /// Opens a lesson to work on it: takes its lock and brings back what an earlier run left unsaved. Where another
-    /// studio has it open, or it cannot be written to, it opens read-only and says so.
-    ///
-    /// # Errors
-    /// When the manifest or a clip is damaged.
-    pub fn open(root: &Path) -> Result<Self> {
-        let mut lesson = Self::read(root)?;
-        let own = root.join(OWN_FOLDER);
-        match Lock::take(&own.join("lock")) {
-            Ok(Some(lock)) => {
-                lesson.lock = Some(lock);
-                lesson.read_only = None;
-            }
-            Ok(None) => lesson.read_only = Some(ELSEWHERE.into()),
-            Err(_) => lesson.read_only = Some("its folder cannot be written to".into()),
-        }
-        if lesson.read_only.is_none() {
-            let path = own.join("journal");
-            let left = Journal::left_in(&path)?;
-            for change in &left {
-                // A change that does not fit was made to files that have since been changed, or is in them already:
-                // a save that was cut off after writing leaves such a journal.
-                if lesson.apply(change).is_err() {
-                    break;
-                }
-                lesson.history.push(change.clone());
-                lesson.recovered += 1;
-            }
-            lesson.lost = left.len() - lesson.recovered;
-            if lesson.lost > 0 {
-                // Nobody can tell which of the two it is, so nothing is thrown away.
-                std::fs::copy(&path, own.join(LOST)).map_err(|e| Fault::io("cannot keep the journal", &path, e))?;
-            }
-            lesson.journal = Some(Journal::start(&path, lesson.history.done())?);
-        }
-        Ok(lesson)
+    /// The notes on a save that was cut off, and on changes of an earlier session that are in no file.
+    #[must_use]
+    pub fn state_notes(&self) -> Vec<Message> {
+        let unsaved = (self.unsaved > 0).then(|| unsaved_note(self.unsaved));
+        self.notes.iter().cloned().chain(unsaved).collect()
     }
 
     /// Makes a change, remembers it for undo, and notes it in the journal.
@@ -138,6 +89,9 @@ impl Lesson {
 
     /// Applies a change and notes it in the journal: both or neither.
     fn make(&mut self, change: &Change) -> Result<()> {
+        if self.journal.as_ref().is_some_and(|journal| !journal.is_open()) {
+            self.hold()?;
+        }
         self.apply(change)?;
         let noted = self.journal.as_mut().map_or(Ok(()), |journal| journal.note(change));
         if noted.is_err() {
@@ -159,7 +113,7 @@ impl Lesson {
         &self.history
     }
 
-    fn apply(&mut self, change: &Change) -> Result<()> {
+    pub(super) fn apply(&mut self, change: &Change) -> Result<()> {
         let mut done: Vec<&super::Edit> = Vec::new();
         for edit in &change.edits {
             if let Err(fault) = edit.apply(&mut self.clips, &mut self.faces) {
@@ -255,16 +209,6 @@ impl Lesson {
     }
 }
 
-/// Why a read-only lesson cannot be changed or saved, and what to do.
-pub(super) fn refusal(what: &str, why: &str) -> Fault {
-    let help =
-        if why == ELSEWHERE { "close it there" } else { "copy the folder to a place of yours and open the copy" };
-    Fault::new(format!("the lesson cannot be {what}: {why}")).help(help)
-}
-
-/// Why a lesson is read-only that somebody is working on.
-const ELSEWHERE: &str = "it is open in another window";
-
 /// The projects in a folder, by name; the folder itself where it is one.
 ///
 /// # Errors
@@ -276,7 +220,12 @@ pub fn projects_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder).map_err(|e| {
         Fault::io("cannot list the folder", folder, e).help("give a folder that holds projects, or a project")
     })?;
-    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(|p| p.join(MANIFEST).is_file()).collect();
+    let mut found: Vec<PathBuf> = entries
+        .flatten()
+        .filter(|e| !e.file_name().to_str().is_some_and(is_temporary))
+        .map(|e| e.path())
+        .filter(|p| p.join(MANIFEST).is_file())
+        .collect();
     found.sort();
     Ok(found)
 }

@@ -1,7 +1,7 @@
 //! A lesson: its folder on disk, what is in it, and every change to it as an invertible edit.
 //!
 //! It owns the files of a project and what they mean together; how a face is drawn or a frame written is not its
-//! business. Loading never changes anything on disk.
+//! business. Loading changes nothing on disk but a save that was cut off, which it finishes.
 
 mod align;
 mod brought;
@@ -18,10 +18,12 @@ mod journal;
 mod label;
 mod lesson;
 mod manifest;
+mod open;
 mod prepare;
 mod said;
 mod quality;
 mod save;
+mod settled;
 mod shots;
 mod times;
 mod tracking;

@@ -11,7 +11,8 @@ pub type Tracking<'a> = &'a dyn Fn(&str, usize, Option<usize>) -> bool;
 /// Finds the times and ratios that the clips of these numbers lack. Returns what an author should know of them: what was
 /// found or not, guessed times, odd recordings, faces whose points are in no file.
 pub fn prepare(lesson: &mut Lesson, clips: &[usize], tracking: Tracking<'_>) -> Vec<Message> {
-    let mut notes = align_missing(lesson, clips);
+    let mut notes = lesson.state_notes();
+    notes.extend(align_missing(lesson, clips));
     notes.extend(track_missing(lesson, clips, tracking));
     for clip in clips.iter().filter_map(|n| lesson.clips.get(*n)) {
         notes.extend(guessed(clip));

@@ -1,9 +1,12 @@
-//! Saving: only files whose content differs are written, each whole.
+//! Saving: the files whose content differs are written, and the journal emptied, in one commit.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::{Change, Clip, Edit, Lesson, LessonFace};
-use crate::disk::{Fault, Result, write_whole};
+use super::journal::Journal;
+use super::open::{elsewhere, refusal};
+use super::settled::{LOCK, OWN_FOLDER};
+use super::{Change, Clip, Edit, Lesson, LessonFace, MANIFEST};
+use crate::disk::{Calls, Commit, Committed, Fault, Lock, Result, Sum, Sums, SystemCalls, end_commit};
 use crate::emotion::{Kept, Marks};
 use crate::face::Face;
 use crate::pose::Emotion;
@@ -11,27 +14,94 @@ use crate::timeline::Score;
 use crate::timing::{self, Format};
 
 impl Lesson {
-    /// Writes every changed file of the lesson and empties the journal. Returns what was written.
+    /// Writes every changed file of the lesson and empties the journal, all or nothing. Returns what was written.
     ///
     /// # Errors
-    /// When the lesson is read-only or a file cannot be written; what was written before stays, and so does the
-    /// journal.
+    /// When the lesson is read-only, its folder was moved, or a file cannot be written. Nothing has changed then, unless
+    /// the message says that the save is finished later.
     pub fn save(&mut self) -> Result<Vec<PathBuf>> {
-        if let Some(why) = &self.read_only {
-            return Err(super::lesson::refusal("saved", why));
-        }
-        let mut written = Vec::new();
+        self.save_by(&mut SystemCalls)
+    }
+
+    /// The same, by other calls than the system's.
+    ///
+    /// # Errors
+    /// As [`Self::save`].
+    pub fn save_by(&mut self, calls: &mut dyn Calls) -> Result<Vec<PathBuf>> {
+        self.commit(calls, |lesson, commit| lesson.stage(commit))
+    }
+
+    /// Adds everything that differs from the files, and the journal, which it empties.
+    fn stage(&mut self, commit: &mut Commit) -> Result<()> {
         for clip in &mut self.clips {
-            written.extend(clip.save()?);
+            clip.stage(commit)?;
+        }
+        for face in &self.faces {
+            face.stage_all(commit)?;
+        }
+        self.journal.as_ref().map_or(Ok(()), |journal| journal.empty_in(commit))
+    }
+
+    /// Makes a commit of what `stage` adds to it, and takes over what is in the files then.
+    fn commit(
+        &mut self,
+        calls: &mut dyn Calls,
+        stage: impl FnOnce(&mut Self, &mut Commit) -> Result<()>,
+    ) -> Result<Vec<PathBuf>> {
+        if let Some(why) = &self.read_only {
+            return Err(refusal("saved", why));
+        }
+        self.hold()?;
+        let (root, own, like) = (self.root.clone(), self.root.join(OWN_FOLDER), self.root.join(MANIFEST));
+        // A save that could not be finished comes first.
+        end_commit(&root, &own, calls)?;
+        let before = self.sent.clone();
+        let mut commit = Commit::new(&root, &own, &like, &before);
+        stage(self, &mut commit)?;
+        let sums = commit.sums().clone();
+        // Should it fail, its files may be there all the same, and are not somebody else's.
+        self.sent.extend(sums.iter().map(|(path, sum)| (path.clone(), *sum)));
+        let Committed { changed, unfinished } = commit.run(calls)?;
+        self.sent.clear();
+        self.take_over(&sums);
+        unfinished.map_or(Ok(changed), Err)
+    }
+
+    /// Takes files over as a commit has written them.
+    fn take_over(&mut self, sums: &Sums) {
+        for clip in &mut self.clips {
+            clip.written(sums);
         }
         for face in &mut self.faces {
-            written.extend(face.save_all()?);
+            face.written(sums);
         }
-        if let Some(journal) = &mut self.journal {
-            journal.clear()?;
+        if let Some(journal) = self.journal.as_mut().filter(|j| sums.contains_key(j.path())) {
+            journal.replaced();
+            self.history.mark_saved();
         }
-        self.history.mark_saved();
-        Ok(written)
+    }
+
+    /// Makes sure that the lesson is still where it was opened, and that nobody else has it.
+    pub(super) fn hold(&mut self) -> Result<()> {
+        if self.held.as_ref().is_some_and(|held| !held.is_at(&self.root)) {
+            return Err(Fault::new(
+                "the lesson's folder was moved or removed while it was open, so nothing is saved here",
+            )
+            .at(&self.root)
+            .help("open it where it is now: its unsaved changes are in its journal"));
+        }
+        let path = self.root.join(OWN_FOLDER).join(LOCK);
+        if self.lock.as_ref().is_none_or(|lock| lock.is_at(&path)) {
+            return Ok(());
+        }
+        // The program's own folder was removed, and its lock with it.
+        match Lock::take(&path)? {
+            Some(lock) => {
+                self.lock = Some(lock);
+                Ok(())
+            }
+            None => Err(refusal("saved", &elsewhere(&path))),
+        }
     }
 
     /// Writes one face's `face.toml` and nothing else; whether it differed from what was there.
@@ -40,7 +110,7 @@ impl Lesson {
     /// When the lesson is read-only, has changes that are not in its files, or the file cannot be written.
     pub fn write_face(&mut self, number: usize, face: &Face) -> Result<bool> {
         if let Some(why) = &self.read_only {
-            return Err(super::lesson::refusal("changed", why));
+            return Err(refusal("changed", why));
         }
         if self.is_unsaved() {
             return Err(Fault::new("the lesson has changes that were never saved")
@@ -53,11 +123,14 @@ impl Lesson {
             return Err(Fault::new(format!("there is no face number {number}")).help("look at lianpu.toml"));
         };
         let before = kept.face.replace(face);
-        let written = kept.save();
-        if written.is_err() {
+        let written = self.commit(&mut SystemCalls, |lesson, commit| lesson.faces[number].stage(commit));
+        if written.is_err()
+            && let Some(kept) = self.faces.get_mut(number)
+            && kept.face != kept.written
+        {
             kept.face = before;
         }
-        Ok(written?.is_some())
+        Ok(!written?.is_empty())
     }
 
     /// What makes the points that a calibration found those of the lesson: a change of every shot whose points differ.
@@ -78,16 +151,35 @@ impl Lesson {
         Ok((!edits.is_empty()).then(|| Change { label: "find the points of the shots".into(), edits }))
     }
 
-    /// Keeps a calibration: saves the lesson, writes `calibration.toml` and `model.aam`, and takes it over.
+    /// Keeps a calibration: saves the lesson's changes together with `calibration.toml`, `model.aam` and the points that
+    /// were found, and takes it over. Returns what was written.
     ///
     /// # Errors
-    /// As [`Self::save`], and when a file of the calibration cannot be written.
-    pub fn keep_calibration(&mut self, number: usize, kept: &Kept) -> Result<()> {
-        self.save()?;
-        match self.faces.get_mut(number) {
-            Some(face) => face.take_calibration(kept),
-            None => Ok(()),
+    /// As [`Self::save`].
+    pub fn keep_calibration(&mut self, number: usize, kept: &Kept) -> Result<Vec<PathBuf>> {
+        self.keep_calibration_by(number, kept, &mut SystemCalls)
+    }
+
+    /// The same, by other calls than the system's.
+    ///
+    /// # Errors
+    /// As [`Self::save`].
+    pub fn keep_calibration_by(&mut self, number: usize, kept: &Kept, calls: &mut dyn Calls) -> Result<Vec<PathBuf>> {
+        let written = self.commit(calls, |lesson, commit| {
+            if lesson.is_unsaved() {
+                lesson.stage(commit)?;
+            }
+            lesson.faces.get(number).map_or(Ok(()), |face| kept.stage(&face.folder, commit))
+        })?;
+        if let Some(face) = self.faces.get_mut(number) {
+            face.calibration = Some(Box::new(kept.file()));
+            for (emotion, marks) in &kept.marks {
+                let shot = &mut face.shots[emotion.index()];
+                shot.marks = Some(marks.clone());
+                shot.written.clone_from(&shot.marks);
+            }
         }
+        Ok(written)
     }
 
     /// Drops every change that is not in the files: the journal forgets them, so that no later run brings them back,
@@ -96,57 +188,48 @@ impl Lesson {
     /// # Errors
     /// When the journal cannot be emptied.
     pub fn discard(mut self) -> Result<()> {
-        match &mut self.journal {
-            Some(journal) => journal.clear(),
-            None => Ok(()),
-        }
+        self.journal.as_mut().map_or(Ok(()), Journal::clear)
     }
 }
 
 impl LessonFace {
-    /// Writes what differs, once it is sure that none of its files was changed by something else.
-    fn save_all(&mut self) -> Result<Vec<PathBuf>> {
-        if let Some(face) = self.face.as_ref().filter(|_| self.face != self.written) {
-            unchanged(&self.path(), &face.to_toml(), self.seen)?;
-        }
+    /// Adds its files that differ.
+    fn stage_all(&self, commit: &mut Commit) -> Result<()> {
+        self.stage(commit)?;
         for (emotion, shot) in Emotion::ALL.into_iter().zip(self.shots.iter()) {
-            shot.ready(&self.folder, emotion)?;
+            shot.stage(&self.folder, emotion, commit)?;
         }
-        let mut written: Vec<PathBuf> = self.save()?.into_iter().collect();
-        for (emotion, shot) in Emotion::ALL.into_iter().zip(self.shots.iter_mut()) {
-            written.extend(shot.save(&self.folder, emotion)?);
-        }
-        Ok(written)
+        Ok(())
     }
 
-    /// Writes `face.toml` where the face differs from the file's, and removes it where its points were taken back.
-    fn save(&mut self) -> Result<Option<PathBuf>> {
-        if self.face == self.written {
-            return Ok(None);
-        }
-        let path = self.path();
-        let done = match &self.face {
-            Some(face) => write_changed(path, &face.to_toml(), &mut self.seen)?,
+    /// Adds `face.toml` where the face differs from the file's, and its removal where its points were taken back.
+    fn stage(&self, commit: &mut Commit) -> Result<()> {
+        match &self.face {
+            _ if self.face == self.written => Ok(()),
+            Some(face) => commit.put(&self.path(), face.to_toml(), self.seen),
             // Only what this program wrote, or has read as it is.
-            None if self.seen.is_some() && checksum(&path) == self.seen => {
-                std::fs::remove_file(&path).map_err(|e| Fault::io("cannot remove it", &path, e))?;
-                self.seen = None;
-                Some(path)
-            }
-            None => None,
-        };
-        self.written.clone_from(&self.face);
-        Ok(done)
+            None if self.seen.is_some() => commit.remove(&self.path(), self.seen),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes its files over as a commit has written them.
+    fn written(&mut self, sums: &Sums) {
+        if let Some(sum) = sums.get(&self.path()) {
+            self.seen = *sum;
+            self.written.clone_from(&self.face);
+        }
+        for (emotion, shot) in Emotion::ALL.into_iter().zip(self.shots.iter_mut()) {
+            shot.written(&self.folder, emotion, sums);
+        }
     }
 }
 
 impl Clip {
-    /// Writes what differs, once it is sure that none of the files was changed by something else: script, times and
-    /// score belong together.
-    pub(super) fn save(&mut self) -> Result<Vec<PathBuf>> {
+    /// Adds the files that differ: script, times and score belong together.
+    pub(super) fn stage(&mut self, commit: &mut Commit) -> Result<()> {
         let path = |name: &str| self.folder.join(name);
-        let (script, times, score) = (path("script.txt"), path("timing.TextGrid"), path("score.toml"));
-        let said = self.script_to_write();
+        let (script, times, score) = (path(SCRIPT), path(TIMES), path(SCORE));
         // Guesses are made anew from the sound, so they are not written until something of the tier was set by hand, or
         // they take the place of times that were there.
         let labels_set = self.intervals().iter().zip(&self.syllables).any(|(i, s)| i.label != s.text);
@@ -155,38 +238,43 @@ impl Clip {
             self.score.guessed = self.timing.guessed && self.score.pins.len() < self.syllables.len();
         }
         let has_times = (is_set || self.seen.timing.is_some()) && !self.timing.tiers.is_empty();
-        let timing = has_times.then(|| timing::write(&self.timing, Format::TextGrid));
-        let set = (self.score != Score::default() || score.exists()).then(|| self.score.to_toml());
-        for (path, text, seen) in
-            [(&script, &said, self.seen.script), (&times, &timing, self.seen.timing), (&score, &set, self.seen.score)]
-        {
-            if let Some(text) = text {
-                unchanged(path, text, seen)?;
-            }
+        match self.script_to_write() {
+            Some(text) if !text.is_empty() => commit.put(&script, text, self.seen.script)?,
+            Some(_) if self.seen.script.is_some() => commit.remove(&script, self.seen.script)?,
+            _ => {}
         }
-        let mut written = Vec::new();
-        if let Some(text) = said {
-            if text.is_empty() && self.seen.script.is_some() && checksum(&script) == self.seen.script {
-                remove(&script)?;
-                self.seen.script = None;
-                written.push(script);
-            } else if !text.is_empty() {
-                written.extend(write_changed(script, &text, &mut self.seen.script)?);
-            }
-            self.kept_script.clone_from(&self.script);
-        }
-        if let Some(text) = timing {
-            written.extend(write_changed(times, &text, &mut self.seen.timing)?);
-        } else if self.seen.timing.is_some() && checksum(&times) == self.seen.timing {
+        if has_times {
+            commit.put(&times, timing::write(&self.timing, Format::TextGrid), self.seen.timing)?;
+        } else if self.seen.timing.is_some() {
             // Times of nothing; only what this program wrote, or has read as it is.
-            remove(&times)?;
-            self.seen.timing = None;
+            commit.remove(&times, self.seen.timing)?;
         }
-        written.extend(self.save_footage()?);
-        if let Some(text) = set {
-            written.extend(write_changed(score, &text, &mut self.seen.score)?);
+        self.stage_footage(commit)?;
+        if self.score != Score::default() || score.exists() {
+            commit.put(&score, self.score.to_toml(), self.seen.score)?;
         }
-        Ok(written)
+        Ok(())
+    }
+
+    /// Takes its files over as a commit has written them.
+    pub(super) fn written(&mut self, sums: &Sums) {
+        let seen = &mut self.seen;
+        let files = [
+            (SCRIPT, &mut seen.script),
+            (TIMES, &mut seen.timing),
+            (SCORE, &mut seen.score),
+            (RATIOS, &mut seen.ratios),
+            (TRACKS, &mut seen.tracks),
+        ];
+        for (name, seen) in files {
+            if let Some(sum) = sums.get(&self.folder.join(name)) {
+                *seen = *sum;
+            }
+        }
+        if sums.keys().any(|path| path.parent() == Some(&self.folder)) {
+            self.kept_script.clone_from(&self.script);
+            self.footage_changed = false;
+        }
     }
 
     /// The text of `script.txt` where words were laid into the script or taken out again; empty where none is left.
@@ -197,36 +285,14 @@ impl Clip {
     }
 }
 
-pub(super) fn remove(path: &Path) -> Result<()> {
-    std::fs::remove_file(path).map_err(|e| Fault::io("cannot remove it", path, e))
-}
+/// The files of a clip that saving writes.
+const SCRIPT: &str = "script.txt";
+const TIMES: &str = "timing.TextGrid";
+const SCORE: &str = "score.toml";
+pub(super) const RATIOS: &str = "ratios.csv";
+pub(super) const TRACKS: &str = "tracks.csv";
 
-/// What a file looks like; none where there is none.
-pub(super) fn checksum(path: &Path) -> Option<u32> {
-    std::fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes))
-}
-
-/// Makes sure that nobody else has changed a file since it was read or written last.
-pub(super) fn unchanged(path: &Path, text: &str, seen: Option<u32>) -> Result<()> {
-    match checksum(path) {
-        Some(now) if Some(now) != seen && now != crc32fast::hash(text.as_bytes()) => {
-            Err(Fault::new("the file was changed by something else since the lesson was opened, and is left as it is")
-                .at(path)
-                .help("move it aside and save again to keep yours, or leave without saving and open the lesson again"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Writes a text where the file differs from it, unless somebody else has changed the file meanwhile.
-pub(super) fn write_changed(path: PathBuf, text: &str, seen: &mut Option<u32>) -> Result<Option<PathBuf>> {
-    unchanged(&path, text, *seen)?;
-    let new = Some(crc32fast::hash(text.as_bytes()));
-    if checksum(&path) == new {
-        *seen = new;
-        return Ok(None);
-    }
-    write_whole(&path, text.as_bytes())?;
-    *seen = new;
-    Ok(Some(path))
+/// The sum of a file that was just read; none where it cannot be read any more.
+pub(super) fn sum_of(path: &std::path::Path) -> Option<Sum> {
+    Sum::at(path).ok().flatten()
 }

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::LessonFace;
-use super::save::{checksum, remove, unchanged, write_changed};
-use crate::disk::{Fault, Result, inside, read_text};
-use crate::emotion::{Binding, CalibrationFile, Kept, Marks, sum_of_face, sum_of_marks};
+use super::save::sum_of;
+use crate::disk::{Commit, Fault, Pending, Result, Sum, Sums, inside, read_text};
+use crate::emotion::{Binding, CalibrationFile, Marks, sum_of_face, sum_of_marks};
 use crate::face::{Face, FeaturePoint, Placed};
 use crate::pose::Emotion;
 
@@ -23,8 +23,8 @@ pub struct FaceShot {
     pub marks: Option<Marks>,
     /// Somebody else's annotation, whose points have no names and cannot be moved here.
     pub foreign: Option<PathBuf>,
-    /// The checksum of its file as it was last read or written.
-    pub(super) seen: Option<u32>,
+    /// The sum of its file as it was last read or written.
+    pub(super) seen: Option<Sum>,
     /// The points as the file has them.
     pub(super) written: Option<Marks>,
 }
@@ -45,38 +45,28 @@ impl FaceShot {
         folder.join(format!("{emotion}.toml"))
     }
 
-    /// Makes sure that its file can be written.
-    pub(super) fn ready(&self, folder: &Path, emotion: Emotion) -> Result<()> {
+    /// Adds its file where the points differ from it, and the file's removal where they were taken back.
+    pub(super) fn stage(&self, folder: &Path, emotion: Emotion, commit: &mut Commit) -> Result<()> {
+        let path = Self::file(folder, emotion);
         match &self.marks {
-            Some(marks) if self.marks != self.written => {
-                unchanged(&Self::file(folder, emotion), &marks.to_toml(), self.seen)
-            }
-            _ => Ok(()),
+            _ if self.marks == self.written => Ok(()),
+            Some(marks) => commit.put(&path, marks.to_toml(), self.seen),
+            None if self.seen.is_some() => commit.remove(&path, self.seen),
+            None => Ok(()),
         }
     }
 
-    /// Writes its file where the points differ from it, and removes it where they were taken back.
-    pub(super) fn save(&mut self, folder: &Path, emotion: Emotion) -> Result<Option<PathBuf>> {
-        if self.marks == self.written {
-            return Ok(None);
+    /// Takes its file over as a commit has written it.
+    pub(super) fn written(&mut self, folder: &Path, emotion: Emotion, sums: &Sums) {
+        if let Some(sum) = sums.get(&Self::file(folder, emotion)) {
+            self.seen = *sum;
+            self.written.clone_from(&self.marks);
         }
-        let path = Self::file(folder, emotion);
-        let done = match &self.marks {
-            Some(marks) => write_changed(path, &marks.to_toml(), &mut self.seen)?,
-            None if self.seen.is_some() && checksum(&path) == self.seen => {
-                remove(&path)?;
-                self.seen = None;
-                Some(path)
-            }
-            None => None,
-        };
-        self.written.clone_from(&self.marks);
-        Ok(done)
     }
 }
 
 /// The shots of the six emotions in a face's folder. Of the photos only the names are read.
-pub(super) fn shots_of(root: &Path, name: &str) -> Result<[FaceShot; 7]> {
+pub(super) fn shots_of(root: &Path, name: &str, pending: &Pending) -> Result<[FaceShot; 7]> {
     let first = |stem: &str, endings: &[&str]| -> Result<Option<PathBuf>> {
         for ending in endings {
             let path = inside(root, &format!("faces/{name}/{stem}.{ending}"))?;
@@ -99,10 +89,10 @@ pub(super) fn shots_of(root: &Path, name: &str) -> Result<[FaceShot; 7]> {
             continue;
         }
         let path = inside(root, &format!("faces/{name}/{emotion}.toml"))?;
-        if path.is_file() {
-            shot.marks = Some(Marks::parse(&read_text(&path)?).map_err(|f| f.at(&path))?);
+        if let Some(file) = pending.at(&path) {
+            shot.marks = Some(Marks::parse(&read_text(&file)?).map_err(|f| f.at(&path))?);
             shot.written.clone_from(&shot.marks);
-            shot.seen = checksum(&path);
+            shot.seen = sum_of(&file);
         }
     }
     Ok(shots)
@@ -144,13 +134,6 @@ impl LessonFace {
             let sum = shot.marks.as_ref().and_then(|m| sum_of_marks(&m.points));
             shot.photo.is_some() == is_there && sum.as_ref() == inputs.get(&format!("{emotion}.toml"))
         })
-    }
-
-    /// Writes a new calibration and takes it over. The points of the shots must have been saved.
-    pub(super) fn take_calibration(&mut self, kept: &Kept) -> Result<()> {
-        kept.write(&self.folder)?;
-        self.calibration = Some(Box::new(kept.file()));
-        Ok(())
     }
 }
 

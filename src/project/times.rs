@@ -40,7 +40,10 @@ impl Clip {
         match timing::match_labels(&self.plain, &tier, label_fits, |s| s.text.clone()) {
             Ok(()) => syllables.intervals = tier.spoken().cloned().collect(),
             Err(fault) => {
-                syllables.intervals = self.shared_out(&tier).ok_or(fault)?;
+                syllables.intervals = self.shared_out(&tier).ok_or_else(|| {
+                    let help = fault.advice().clone().then("; correct one of them, or move timing.TextGrid away: ");
+                    fault.help(help.then(Task::Align).then(" finds the times anew"))
+                })?;
                 self.warnings.push(message![
                     format!(
                         "its times are those of words or phrases (tier `{}`), which their syllables share; ",

@@ -1,10 +1,11 @@
 //! Aligning and tracking an open project from its files to its files: the course of work behind `align` and `track`. The
 //! studio runs the same jobs in threads and takes their results by the same changes.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{AlignJob, Clip, Followed, Lesson, Method, TrackJob, Tracking};
 use crate::disk::{Fault, Message, NextStep, Result, Setting, Task, message};
+use crate::emotion::Kept;
 use crate::speech::{Alignment, Note};
 use crate::track::Options;
 
@@ -74,6 +75,18 @@ impl Lesson {
         ]))
     }
 
+    /// Calibrates a face from its files and saves what is found. Returns it and the files that were written.
+    ///
+    /// # Errors
+    /// When there is no such face, its shots cannot be used, or a file cannot be written.
+    pub fn calibrate(&mut self, face: usize) -> Result<(Kept, Vec<PathBuf>)> {
+        let folder = self.faces.get(face).map(|f| f.folder.clone());
+        let folder = folder.ok_or_else(|| Fault::new(format!("there is no face number {face}")))?;
+        let kept = Kept::make(&folder)?;
+        let written = self.keep_calibration(face, &kept)?;
+        Ok((kept, written))
+    }
+
     /// The clips with a recording and a script, by number.
     #[must_use]
     pub fn spoken_clips(&self) -> Vec<usize> {
@@ -87,7 +100,7 @@ impl Lesson {
     /// # Errors
     /// When a chosen clip has no recording or script, or a file cannot be written.
     pub fn align(&mut self, chosen: Option<usize>, keep: bool) -> Result<AlignReport> {
-        let mut report = AlignReport::default();
+        let mut report = AlignReport { notes: self.state_notes(), ..AlignReport::default() };
         let wanted = match chosen {
             Some(number) => vec![number],
             None => self.to_align(&mut report.notes),
@@ -150,7 +163,7 @@ impl Lesson {
         tracking: Tracking<'_>,
         event: &mut dyn FnMut(TrackEvent<'_>) -> Result<()>,
     ) -> Result<()> {
-        let mut notes = Vec::new();
+        let mut notes = self.state_notes();
         let wanted = self.to_track(request, &mut notes)?;
         notes.iter().try_for_each(|note| event(TrackEvent::Note(note)))?;
         for number in wanted {

@@ -67,7 +67,7 @@ pub(super) fn made(state: &mut State, root: &Path, number: usize, made: Result<K
         if let Some(change) = lesson.calibrated(number, &kept)? {
             lesson.change(change)?;
         }
-        lesson.keep_calibration(number, &kept)
+        lesson.keep_calibration(number, &kept).map(drop)
     });
     face_edits::show(state);
     if let Err(fault) = done {

@@ -307,6 +307,11 @@ impl Studio {
                 self.under_way -= 1;
                 self.state.busy = None;
                 if let Ok(lesson) = lesson.as_ref()
+                    && let Some(note) = lesson.notes.first()
+                {
+                    self.state.say(super::wording::worded(note));
+                }
+                if let Ok(lesson) = lesson.as_ref()
                     && lesson.recovered > 0
                 {
                     let many = if lesson.recovered == 1 { "change" } else { "changes" };

@@ -20,7 +20,7 @@ use crate::emotion::Kept;
 use crate::face::{Anchors, Created, Face};
 use crate::geometry::Point;
 use crate::photo::{Photo, Stages};
-use crate::project::{Lesson, check};
+use crate::project::{Finding, Lesson, check};
 use crate::speech::{Spectrogram, nuclei, pitch};
 use crate::track::Source;
 
@@ -31,7 +31,12 @@ pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Expor
         let _ = match job {
             Job::Open(root) => {
                 let name = root.file_name().map_or_else(|| "lesson".into(), |n| n.to_string_lossy().into_owned());
-                let lesson = catch_unwind(|| (Lesson::open(&root), check(&root)));
+                let lesson = catch_unwind(|| {
+                    let lesson = Lesson::open(&root);
+                    let notes =
+                        lesson.iter().flat_map(|l| l.notes.iter().cloned().map(Finding::Odd)).collect::<Vec<_>>();
+                    (lesson, notes.into_iter().chain(check(&root)).collect())
+                });
                 let (lesson, findings) = lesson.unwrap_or_else(|_| {
                     (
                         Err(Fault::new("the lesson cannot be opened").help("please report what `lianpu check` says")),

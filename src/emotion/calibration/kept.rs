@@ -1,11 +1,11 @@
 //! A calibration in a face's folder: made from the shots there, and kept there as `calibration.toml` and `model.aam`.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
-use crate::disk::{Fault, Message, Result, Task, message, write_whole};
+use crate::disk::{Commit, Fault, Message, Result, Task, message};
 use crate::photo::sha256;
 use crate::pose::Emotion;
 
@@ -111,27 +111,16 @@ impl Kept {
         format!("{:08x}{:08x}", crc32fast::hash(inputs.as_bytes()), crc32fast::hash(&self.made.model.to_bytes()))
     }
 
-    /// Writes it into a face's folder: `calibration.toml`, `model.aam`, and the points of the shots that were found, as
-    /// `happy.toml` and so on. Returns what was written; what is the same stays untouched.
+    /// Adds its files in a face's folder to a commit: the points of the shots that were found, as `happy.toml` and so on,
+    /// `model.aam`, and `calibration.toml`.
     ///
     /// # Errors
-    /// When a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>> {
-        let mut written = Vec::new();
-        let mut put = |name: String, bytes: &[u8]| -> Result<()> {
-            let path = folder.join(name);
-            if std::fs::read(&path).is_ok_and(|old| old == bytes) {
-                return Ok(());
-            }
-            write_whole(&path, bytes)?;
-            written.push(path);
-            Ok(())
-        };
+    /// When a file that is there cannot be read.
+    pub fn stage(&self, folder: &Path, commit: &mut Commit) -> Result<()> {
         for (emotion, marks) in &self.marks {
-            put(format!("{emotion}.toml"), marks.to_toml().as_bytes())?;
+            commit.put_over(&folder.join(format!("{emotion}.toml")), marks.to_toml())?;
         }
-        put(MODEL.into(), &self.made.model.to_bytes())?;
-        put(CALIBRATION.into(), self.file().to_toml()?.as_bytes())?;
-        Ok(written)
+        commit.put_over(&folder.join(MODEL), self.made.model.to_bytes())?;
+        commit.put_over(&folder.join(CALIBRATION), self.file().to_toml()?)
     }
 }
