@@ -112,11 +112,7 @@ impl Lesson {
         if let Some(why) = &self.read_only {
             return Err(refusal("changed", why));
         }
-        if self.is_unsaved() {
-            return Err(Fault::new("the lesson has changes that were never saved")
-                .at(&self.root)
-                .help("open it in the studio and save or discard them"));
-        }
+        self.check_saved()?;
         // As it will be read: what could not be read back is not written.
         let face = Face::parse(&face.to_toml())?;
         let Some(kept) = self.faces.get_mut(number) else {
