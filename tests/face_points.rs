@@ -10,10 +10,10 @@ mod test_data;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::face::find::{Anchors, Doubt, Found, Frame, Model, Pyramid, Refusal, find, find_from};
+use lianpu::face::find::{Anchors, Doubt, Found, Model, Pyramid, Refusal, find, find_from};
 use lianpu::face::{FeaturePoint as P, How};
 use lianpu::figure::LineFigure;
-use lianpu::geometry::Point;
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::{Photo, Plane};
 use lianpu::pose::{Emotion, Pose, Ratios};
 use lianpu::render::Painter;
@@ -116,10 +116,10 @@ fn a_face_moves_with_its_photo() {
     let picture = Pyramid::of(&photo, 1.0);
     for (degrees, size) in [(-20.0_f64, 1.0), (-8.0, 0.6), (12.0, 1.0), (20.0, 1.4)] {
         let middle = Point::new(photo.width() as f64 / 2.0, photo.height() as f64 / 2.0);
-        let turn = Frame::new(middle, 1.0 / size, -degrees.to_radians());
+        let turn = Similarity::new(middle, 1.0 / size, -degrees.to_radians());
         let side = (photo.width() as f64 * size) as usize;
         let corner = turn.apply(Point::new(-(side as f64) / 2.0, -(side as f64) / 2.0));
-        let place = Frame { origin: corner, ..turn };
+        let place = Similarity { origin: corner, ..turn };
         let other = find(&grey(&picture.crop(&place, side, side)), &[]).unwrap();
         let off = apart(&found, &other, |p| place.apply(p));
         assert!(off < 0.025, "turned by {degrees}, {size} times as large: {off:.4}");

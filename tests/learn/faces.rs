@@ -19,8 +19,8 @@ mod windows;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::face::find::{self, Fit, Frame, Model, Pyramid, WORKING_SIDE};
-use lianpu::geometry::Point;
+use lianpu::face::find::{self, Fit, Model, Pyramid, WORKING_SIDE};
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::{Photo, Plane};
 
 use chance::Chance;
@@ -239,7 +239,7 @@ fn check(model: &Model, data: &Path, neutral: &[Shot], scheme: &Scheme) {
             .iter()
             .step_by(2)
             .map(|s| {
-                let eyes = Frame::of_pupils(s.truth[12], s.truth[17]);
+                let eyes = Similarity::spanning(s.truth[12], s.truth[17]);
                 others::turned(&s.photo, &eyes, f64::from(degrees).to_radians(), &[]).0
             })
             .collect();
@@ -252,9 +252,9 @@ fn check(model: &Model, data: &Path, neutral: &[Shot], scheme: &Scheme) {
             .iter()
             .step_by(2)
             .map(|s| {
-                let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
+                let turn = Similarity::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
                 let corner = turn.apply(Point::new(-300.0, -300.0));
-                photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
+                photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Similarity { origin: corner, ..turn }, 600, 600))
             })
             .collect();
         said(&format!("tilted by {degrees}"), &seen);

@@ -1,10 +1,10 @@
 //! Where in a picture a face may be: linear templates over cells of edge directions, slid over the picture at many
 //! sizes (Dalal and Triggs 2005), one for each of a few tilts of the head.
 
+use super::Pyramid;
 use super::channels::{BINS, Channels};
 use super::weights::{Matrix, Reader, Writer, dot};
-use super::{Frame, Pyramid};
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 use crate::photo::Plane;
 
 /// Pixels in a pupil distance at the size that a template is for.
@@ -35,7 +35,7 @@ pub struct Detector {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// The face's frame in the photo, to within a cell.
-    pub frame: Frame,
+    pub frame: Similarity,
     /// The template's sum: 0 is undecided.
     pub score: f32,
     /// Which template.
@@ -86,7 +86,7 @@ impl Detector {
             let size = |v: f64| (v / step) as usize / CELL * CELL + 2 * margin;
             // Pixel (0, 0) of the level shows what lies `margin` of its pixels before the photo's corner.
             let corner = (0.5 - margin as f64) * step - 0.5;
-            let place = Frame { a: step, b: 0.0, origin: Point::new(corner, corner) };
+            let place = Similarity { a: step, b: 0.0, origin: Point::new(corner, corner) };
             let level = cells(&picture.crop(&place, size(width), size(height)));
             self.scan_level(&level, &place, least, &mut hits);
             scale *= STEP;
@@ -95,7 +95,7 @@ impl Detector {
         apart(hits)
     }
 
-    fn scan_level(&self, level: &Channels, place: &Frame, least: f32, hits: &mut Vec<Hit>) {
+    fn scan_level(&self, level: &Channels, place: &Similarity, least: f32, hits: &mut Vec<Hit>) {
         let (w, h) = (level.width, level.height);
         if w < SIDE || h < SIDE {
             return;
@@ -135,11 +135,11 @@ impl Detector {
 }
 
 /// The face's frame, of a window whose first cell is at `x`, `y` of a level that lies at `place`.
-fn frame_of(x: usize, y: usize, roll: f64, place: &Frame) -> Frame {
+fn frame_of(x: usize, y: usize, roll: f64, place: &Similarity) -> Similarity {
     let half = (SIDE * CELL) as f64 / 2.0 - 0.5;
     let middle = Point::new((x * CELL) as f64 + half, (y * CELL) as f64 + half);
-    let turned = Frame::new(middle, SCALE, roll);
-    place.after(&Frame { origin: turned.apply(Point::new(0.0, -BELOW)), ..turned })
+    let turned = Similarity::new(middle, SCALE, roll);
+    place.after(&Similarity { origin: turned.apply(Point::new(0.0, -BELOW)), ..turned })
 }
 
 /// Best first: those whose middle is farther than 0.7 pupil distances from that of any better one, or which are of
@@ -147,7 +147,7 @@ fn frame_of(x: usize, y: usize, roll: f64, place: &Frame) -> Frame {
 fn apart(hits: Vec<Hit>) -> Vec<Hit> {
     let mut kept: Vec<Hit> = Vec::new();
     for hit in hits {
-        let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
+        let middle = |f: &Similarity| f.apply(Point::new(0.0, BELOW));
         let near = |other: &Hit| {
             let (a, b) = (hit.frame.scale(), other.frame.scale());
             middle(&hit.frame).distance(middle(&other.frame)) < 0.7 * a.max(b) && a.max(b) < 1.8 * a.min(b)

@@ -1,7 +1,6 @@
 //! A picture in grey at halved sizes, and crops of it that are turned and scaled to order.
 
-use super::Frame;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 use crate::photo::{Photo, Plane};
 
 /// Luma at full size, half, a quarter …, of a photo or of a part of one.
@@ -24,7 +23,7 @@ impl Pyramid {
     /// Of the square round a face that reaches 2.2 pupil distances from between the mouth and the eyes: reduced by
     /// whole pixels, but so that at least `fine` of them make a pupil distance where the photo has them.
     #[must_use]
-    pub fn round_face(photo: &Photo, face: &Frame, fine: f64) -> Self {
+    pub fn round_face(photo: &Photo, face: &Similarity, fine: f64) -> Self {
         let middle = face.apply(Point::new(0.0, 0.3));
         let reach = 2.2 * face.scale();
         let step = ((face.scale() / fine) as usize).max(1);
@@ -67,7 +66,7 @@ impl Pyramid {
     /// A crop of `width` × `height` pixels. Its pixel (u, v) shows the photo at `place.apply((u, v))`; that is, the
     /// frame's unit is a pixel of the crop. Beyond the border the border's values go on.
     #[must_use]
-    pub fn crop(&self, place: &Frame, width: usize, height: usize) -> Plane {
+    pub fn crop(&self, place: &Similarity, width: usize, height: usize) -> Plane {
         let reduction = place.scale() / self.step;
         let level = (reduction.max(1.0).log2().round() as usize).min(self.levels.len() - 1);
         let (plane, size) = (&self.levels[level], self.step * f64::from(1_u32 << level));

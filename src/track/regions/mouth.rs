@@ -5,9 +5,9 @@
 //! that is what grows here.
 
 use super::window::{Window, below};
-use crate::aam::{Grey, Similarity};
+use crate::aam::Grey;
 use crate::emotion::MouthMoves;
-use crate::geometry::{Point, Rect, Vec2};
+use crate::geometry::{Point, Rect, Similarity, Vec2};
 use crate::photo::{Mask, Neighbours, Regions};
 use crate::pose::{MouthPose, MouthPreset, MouthShape};
 

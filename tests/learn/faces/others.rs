@@ -1,7 +1,6 @@
 //! Pictures without a face that could be accepted: drawn by chance, torn from photos, or heads turned away.
 
-use lianpu::face::find::Frame;
-use lianpu::geometry::Point;
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::{Photo, Plane};
 
 use crate::chance::Chance;
@@ -202,7 +201,7 @@ fn depth(x: f64, y: f64) -> f64 {
 }
 
 /// A photo as if its head were turned by `yaw` radians to a side, and where points of it come to lie.
-pub fn turned(photo: &Photo, face: &Frame, yaw: f64, points: &[Point]) -> (Photo, Vec<Point>) {
+pub fn turned(photo: &Photo, face: &Similarity, yaw: f64, points: &[Point]) -> (Photo, Vec<Point>) {
     let (w, h) = (photo.width(), photo.height());
     let (sin, cos) = yaw.sin_cos();
     // The middle of the face stays about where it is.
