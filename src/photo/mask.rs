@@ -1,18 +1,10 @@
 //! Binary images, and boxes in them.
 
-use super::Plane;
+use crate::drawing::Image;
 use crate::geometry::Point;
 
-/// A yes or no a pixel, row by row.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mask {
-    /// Pixels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// The values, row by row.
-    pub bits: Vec<bool>,
-}
+/// A yes or no a pixel.
+pub type Mask = Image<bool>;
 
 /// A box of whole pixels: from `x0`, `y0` up to, not including, `x1`, `y1`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,49 +82,21 @@ impl Bounds {
 }
 
 impl Mask {
-    /// A mask of one value.
-    #[must_use]
-    pub fn filled(width: usize, height: usize, value: bool) -> Self {
-        Self { width, height, bits: vec![value; width * height] }
-    }
-
-    /// The pixels of a plane that `pick` says yes to.
-    #[must_use]
-    pub fn of(plane: &Plane, pick: impl Fn(f32) -> bool) -> Self {
-        let bits = plane.values.iter().map(|v| pick(*v)).collect();
-        Self { width: plane.width, height: plane.height, bits }
-    }
-
     /// Whether a pixel is set; outside none is.
     #[must_use]
-    pub fn at(&self, x: isize, y: isize) -> bool {
-        x >= 0
-            && y >= 0
-            && (x as usize) < self.width
-            && (y as usize) < self.height
-            && self.bits[y as usize * self.width + x as usize]
+    pub fn is_set(&self, x: isize, y: isize) -> bool {
+        x >= 0 && y >= 0 && self.get(x as usize, y as usize) == Some(&true)
     }
 
     /// Pixels that are set.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.bits.iter().filter(|b| **b).count()
-    }
-
-    /// The same size, of what `join` makes of each pixel of both.
-    ///
-    /// # Panics
-    /// When the sizes differ.
-    #[must_use]
-    pub fn with(&self, other: &Self, join: impl Fn(bool, bool) -> bool) -> Self {
-        assert!(self.width == other.width && self.height == other.height, "masks of one image");
-        let bits = self.bits.iter().zip(&other.bits).map(|(a, b)| join(*a, *b)).collect();
-        Self { width: self.width, height: self.height, bits }
+        self.pixels().iter().filter(|b| **b).count()
     }
 
     /// What is not set.
     #[must_use]
     pub fn not(&self) -> Self {
-        Self { width: self.width, height: self.height, bits: self.bits.iter().map(|b| !b).collect() }
+        self.map(|b| !b)
     }
 }

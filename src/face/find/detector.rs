@@ -46,28 +46,28 @@ pub struct Hit {
 #[must_use]
 pub fn cells(plane: &Plane) -> Channels {
     let raw = Channels::cells(plane, CELL);
-    let (w, h) = (raw.width, raw.height);
-    let square: Vec<f32> = raw.values.iter().map(|c| c.iter().map(|v| v * v).sum()).collect();
-    let mut values = Vec::with_capacity(raw.values.len());
+    let (w, h) = (raw.width(), raw.height());
+    let square: Plane = raw.map(|c| c.iter().map(|v| v * v).sum());
+    let mut values = Vec::with_capacity(w * h);
     for y in 0..h {
-        let rows = [y.saturating_sub(1), y, (y + 1).min(h - 1)].map(|y| &square[y * w..(y + 1) * w]);
+        let rows = [y.saturating_sub(1), y, (y + 1).min(h - 1)].map(|y| square.row(y));
         let column = |x: usize| rows[0][x] + 2.0 * rows[1][x] + rows[2][x];
         for x in 0..w {
             let near = column(x.saturating_sub(1)) + 2.0 * column(x) + column((x + 1).min(w - 1));
             // A 3 × 3 binomial mean has weights of sixteen in all. Light without edges must not be blown up: 24 is
             // what a cell holds of the noise of a good camera.
             let inverse = 1.0 / (near / 16.0 + 24.0 * 24.0).sqrt();
-            values.push(raw.values[y * w + x].map(|v| (v * inverse).min(0.6)));
+            values.push(raw[(x, y)].map(|v| (v * inverse).min(0.6)));
         }
     }
-    Channels { width: w, height: h, values }
+    Channels::new(w, h, values)
 }
 
 /// The numbers of the window whose first cell is at `x`, `y`.
 pub fn window(cells: &Channels, x: usize, y: usize, out: &mut Vec<f32>) {
     out.clear();
     for row in y..y + SIDE {
-        out.extend(cells.values[row * cells.width + x..row * cells.width + x + SIDE].iter().flatten());
+        out.extend(cells.row(row)[x..x + SIDE].iter().flatten());
     }
 }
 
@@ -96,11 +96,11 @@ impl Detector {
     }
 
     fn scan_level(&self, level: &Channels, place: &Similarity, least: f32, hits: &mut Vec<Hit>) {
-        let (w, h) = (level.width, level.height);
+        let (w, h) = (level.width(), level.height());
         if w < SIDE || h < SIDE {
             return;
         }
-        let flat = level.values.as_flattened();
+        let flat = level.pixels().as_flattened();
         for y in 0..=h - SIDE {
             for x in 0..=w - SIDE {
                 for (template, roll) in self.rolls.iter().enumerate() {
