@@ -66,6 +66,11 @@ impl Bounds {
         (self.x0..self.x1).contains(&x) && (self.y0..self.y1).contains(&y)
     }
 
+    /// Its pixels, row by row.
+    pub fn places(self) -> impl Iterator<Item = (usize, usize)> {
+        (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| (x, y)))
+    }
+
     /// What two boxes share; none where they are apart.
     #[must_use]
     pub fn shared(&self, other: &Self) -> Option<Self> {
@@ -92,6 +97,32 @@ impl Mask {
     #[must_use]
     pub fn count(&self) -> usize {
         self.pixels().iter().filter(|b| **b).count()
+    }
+
+    /// The indices of the pixels that are set, row by row.
+    pub fn indices(&self) -> impl Iterator<Item = usize> {
+        self.pixels().iter().enumerate().filter(|(_, set)| **set).map(|(i, _)| i)
+    }
+
+    /// What is set in both.
+    ///
+    /// # Panics
+    /// As all that joins two masks when the sizes differ.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        self.with(other, |a, b| *a && *b)
+    }
+
+    /// What is set in either.
+    #[must_use]
+    pub fn or(&self, other: &Self) -> Self {
+        self.with(other, |a, b| *a || *b)
+    }
+
+    /// What is set in this and not in the other.
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        self.with(other, |a, b| *a && !*b)
     }
 
     /// What is not set.

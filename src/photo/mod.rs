@@ -6,6 +6,7 @@
 mod plane;
 mod read;
 mod mask;
+mod morphology;
 mod hsi;
 mod threshold;
 mod regions;

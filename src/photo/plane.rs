@@ -54,4 +54,56 @@ impl Plane {
         }
         blurred
     }
+
+    /// The means over squares of `2 radius + 1` pixels, cut at the border.
+    #[must_use]
+    pub fn boxed(&self, radius: usize) -> Self {
+        let (width, height) = (self.width(), self.height());
+        let mut across = Self::filled(width, height, 0.0);
+        for (y, row) in self.rows().enumerate() {
+            let mut sum: f32 = row.iter().take(radius).sum();
+            for (x, o) in across.row_mut(y).iter_mut().enumerate() {
+                if x + radius < width {
+                    sum += row[x + radius];
+                }
+                if x > radius {
+                    sum -= row[x - radius - 1];
+                }
+                let count = (x + radius + 1).min(width) - x.saturating_sub(radius);
+                *o = sum / count as f32;
+            }
+        }
+        let mut out = Self::filled(width, height, 0.0);
+        let mut sums = vec![0.0_f32; width];
+        let add = |sums: &mut [f32], y: usize, sign: f32| {
+            sums.iter_mut().zip(across.row(y)).for_each(|(s, v)| *s += sign * v);
+        };
+        (0..radius.min(height)).for_each(|y| add(&mut sums, y, 1.0));
+        for y in 0..height {
+            if y + radius < height {
+                add(&mut sums, y + radius, 1.0);
+            }
+            if y > radius {
+                add(&mut sums, y - radius - 1, -1.0);
+            }
+            let share = 1.0 / ((y + radius + 1).min(height) - y.saturating_sub(radius)) as f32;
+            out.row_mut(y).iter_mut().zip(&sums).for_each(|(o, s)| *o = s * share);
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_mean_keeps_constants_and_sums_what_it_covers() {
+        assert!(Plane::filled(230, 290, 0.25).boxed(6).pixels().iter().all(|v| (v - 0.25).abs() < 1e-4));
+        assert_eq!(Plane::filled(2, 1, 0.5).boxed(6), Plane::filled(2, 1, 0.5));
+        let mut one = Plane::filled(230, 290, 0.0);
+        one[(100, 100)] = 1.0;
+        let mean = one.boxed(2);
+        assert!((mean[(98, 102)] - 0.04).abs() < 1e-6 && mean[(98, 103)].abs() < 1e-6);
+    }
 }
