@@ -93,8 +93,8 @@ impl<T> Image<T> {
         Image { width: self.width, height: self.height, pixels }
     }
 
-    /// The four pixels round a place, for bilinear interpolation: left and right above, left and right below; and how
-    /// far the place lies from the left and from the upper ones, 0 to 1. Beyond the border the border goes on.
+    /// The four pixels round a position, for bilinear interpolation: upper left, upper right, lower left, lower right;
+    /// and its distances from the left and from the upper ones, 0 to 1. Positions beyond the border are moved to it.
     #[inline]
     #[must_use]
     pub fn around(&self, x: f64, y: f64) -> ([&T; 4], [f64; 2]) {
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "out of range")]
+    #[should_panic(expected = "out of bounds")]
     fn a_column_beyond_the_row_is_no_pixel_of_the_next() {
         let _ = counted(4, 3)[(4, 0)];
     }
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_between_pixels_has_four_round_it_and_a_border_pixel_repeats() {
+    fn a_position_between_pixels_has_four_round_it() {
         let image = counted(4, 3);
         assert_eq!(image.around(1.25, 0.5), ([&1, &2, &5, &6], [0.25, 0.5]));
         assert_eq!(image.around(9.0, -3.0), ([&3, &3, &7, &7], [0.0, 0.0]));

@@ -67,7 +67,7 @@ impl Bounds {
     }
 
     /// Its pixels, row by row.
-    pub fn places(self) -> impl Iterator<Item = (usize, usize)> {
+    pub fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
         (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| (x, y)))
     }
 
@@ -104,28 +104,34 @@ impl Mask {
         self.pixels().iter().enumerate().filter(|(_, set)| **set).map(|(i, _)| i)
     }
 
-    /// What is set in both.
+    /// The pixels set in both.
     ///
     /// # Panics
-    /// As all that joins two masks when the sizes differ.
+    /// When the sizes differ.
     #[must_use]
     pub fn and(&self, other: &Self) -> Self {
         self.with(other, |a, b| *a && *b)
     }
 
-    /// What is set in either.
+    /// The pixels set in either.
+    ///
+    /// # Panics
+    /// When the sizes differ.
     #[must_use]
     pub fn or(&self, other: &Self) -> Self {
         self.with(other, |a, b| *a || *b)
     }
 
-    /// What is set in this and not in the other.
+    /// The pixels set in this and not in the other.
+    ///
+    /// # Panics
+    /// When the sizes differ.
     #[must_use]
     pub fn without(&self, other: &Self) -> Self {
         self.with(other, |a, b| *a && !*b)
     }
 
-    /// What is not set.
+    /// The pixels not set.
     #[must_use]
     pub fn not(&self) -> Self {
         self.map(|b| !b)

@@ -13,7 +13,7 @@ impl Mask {
         let Some(window) = self.window(margin) else { return out };
         let distances = distances_within(&window, |x, y| self[(x, y)] == grows);
         let reach = (radius * radius) as f32;
-        for ((x, y), near) in window.places().zip(distances) {
+        for ((x, y), near) in window.pixels().zip(distances) {
             out[(x, y)] = if grows { near <= reach } else { near > reach };
         }
         out
@@ -66,7 +66,7 @@ fn distances_within(window: &Bounds, test: impl Fn(usize, usize) -> bool) -> Vec
     // Larger than any squared distance in a picture of 20,000 pixels a side, small enough that adding to it loses nothing.
     const FAR: f32 = 1e9;
     let (wide, tall) = (window.width(), window.height());
-    let mut field: Vec<f32> = window.places().map(|(x, y)| if test(x, y) { 0.0 } else { FAR }).collect();
+    let mut field: Vec<f32> = window.pixels().map(|(x, y)| if test(x, y) { 0.0 } else { FAR }).collect();
     let longest = wide.max(tall);
     let (mut line, mut out) = (vec![0.0; longest], vec![0.0; longest]);
     let (mut sites, mut starts) = (vec![0_usize; longest], vec![0.0_f32; longest + 1]);

@@ -339,15 +339,12 @@ fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Plane
 }
 
 fn softmax(logits: &[Vec<f32>; CLASSES]) -> [Plane; CLASSES] {
-    let mut out: [Plane; CLASSES] = std::array::from_fn(|_| per_cell(|_| 0.0));
-    for c in 0..CELLS {
+    let shares = per_cell(|c| {
         let four: [f32; CLASSES] = std::array::from_fn(|k| logits[k][c]);
         let most = four.iter().fold(f32::NEG_INFINITY, |m, v| m.max(*v));
         let e = four.map(|v| if v - most < -12.0 { 0.0 } else { (v - most).exp() });
         let sum: f32 = e.iter().sum();
-        for (field, v) in out.iter_mut().zip(e) {
-            field.pixels_mut()[c] = v / sum;
-        }
-    }
-    out
+        e.map(|v| v / sum)
+    });
+    std::array::from_fn(|k| shares.map(|four| four[k]))
 }
