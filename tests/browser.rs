@@ -13,9 +13,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use chromium::{Chromium, Tab, from_base64};
+use lianpu::drawing::Picture;
 use lianpu::export::{Format, Job, Ledger, Request, Shard, plan};
 use lianpu::project::Lesson;
-use lianpu::render::{Painter, Picture};
+use lianpu::render::Painter;
 
 const SIZE: [u32; 2] = [640, 360];
 
@@ -44,7 +45,7 @@ fn difference(ours: &Picture, png: &[u8]) -> (f64, usize) {
     assert_eq!(theirs.dimensions(), (SIZE[0], SIZE[1]));
     let (mut sum, mut far) = (0_u64, 0);
     for (x, y, pixel) in theirs.enumerate_pixels() {
-        let own = ours.pixel(x, y).unwrap();
+        let own = ours[(x as usize, y as usize)];
         let most = own.iter().zip(pixel.0).map(|(a, b)| a.abs_diff(b)).max().unwrap();
         sum += u64::from(most);
         far += usize::from(most > 96);

@@ -103,8 +103,8 @@ fn an_animated_svg_shows_at_every_frame_what_the_frames_show_and_has_each_pose_o
             let mut pixels = tiny_skia::Pixmap::new(640, 360).unwrap();
             resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
             let ours = painter.paint(&figure.draw(&timeline.pose(timeline.time_of(frame))));
-            let differences = || pixels.data().iter().zip(&ours.rgba).map(|(a, b)| a.abs_diff(*b));
-            let mean = differences().map(u32::from).sum::<u32>() as f64 / ours.rgba.len() as f64;
+            let differences = || pixels.data().iter().zip(ours.pixels().as_flattened()).map(|(a, b)| a.abs_diff(*b));
+            let mean = differences().map(u32::from).sum::<u32>() as f64 / pixels.data().len() as f64;
             let far = differences().filter(|d| *d > 96).count();
             assert!(mean < 0.4 && far < 12, "{name}, frame {frame}: mean {mean:.3}, {far} far off");
         }

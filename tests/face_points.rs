@@ -10,10 +10,10 @@ mod test_data;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::face::find::{Anchors, Doubt, Found, Frame, Model, Pyramid, Refusal, find, find_from};
+use lianpu::face::find::{Anchors, Doubt, Found, Model, Pyramid, Refusal, find, find_from};
 use lianpu::face::{FeaturePoint as P, How};
 use lianpu::figure::LineFigure;
-use lianpu::geometry::Point;
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::{Photo, Plane};
 use lianpu::pose::{Emotion, Pose, Ratios};
 use lianpu::render::Painter;
@@ -37,8 +37,7 @@ fn one() -> Option<Photo> {
 }
 
 fn grey(plane: &Plane) -> Photo {
-    let pixels = plane.values.iter().map(|v| [v.round().clamp(0.0, 255.0) as u8; 3]).collect();
-    Photo::new(plane.width, plane.height, pixels)
+    plane.map(|v| [v.round().clamp(0.0, 255.0) as u8; 3])
 }
 
 fn eyes(found: &Found) -> (Point, Point) {
@@ -116,10 +115,10 @@ fn a_face_moves_with_its_photo() {
     let picture = Pyramid::of(&photo, 1.0);
     for (degrees, size) in [(-20.0_f64, 1.0), (-8.0, 0.6), (12.0, 1.0), (20.0, 1.4)] {
         let middle = Point::new(photo.width() as f64 / 2.0, photo.height() as f64 / 2.0);
-        let turn = Frame::new(middle, 1.0 / size, -degrees.to_radians());
+        let turn = Similarity::new(middle, 1.0 / size, -degrees.to_radians());
         let side = (photo.width() as f64 * size) as usize;
         let corner = turn.apply(Point::new(-(side as f64) / 2.0, -(side as f64) / 2.0));
-        let place = Frame { origin: corner, ..turn };
+        let place = Similarity { origin: corner, ..turn };
         let other = find(&grey(&picture.crop(&place, side, side)), &[]).unwrap();
         let off = apart(&found, &other, |p| place.apply(p));
         assert!(off < 0.025, "turned by {degrees}, {size} times as large: {off:.4}");
@@ -137,11 +136,11 @@ fn what_is_no_face_is_refused() {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 24) as f32
         });
-        Plane { width: 300, height: 300, values: values.collect() }
+        Plane::new(300, 300, values.collect())
     };
     let of = |f: &dyn Fn(f32, f32) -> f32| {
         let values = (0..90_000).map(|i| f((i % 300) as f32, (i / 300) as f32).clamp(0.0, 255.0)).collect();
-        Plane { width: 300, height: 300, values }
+        Plane::new(300, 300, values)
     };
     let blob = |x: f32, y: f32, u: f32, v: f32, r: f32| if (x - u).hypot(y - v) < r { 1.0 } else { 0.0 };
     let mut others = vec![
@@ -186,9 +185,8 @@ fn a_drawn_figure_is_no_photo_of_a_face() {
             for side in [200, 600] {
                 let drawing = figure.draw(&Pose::of(Ratios::pure(emotion)));
                 let picture = Painter::new(side, side).unwrap().paint(&drawing);
-                let laid = |p: &[u8]| [0, 1, 2].map(|k| 255 - (255 - p[k]) / 255 * p[3]);
-                let pixels = picture.rgba.chunks_exact(4).map(laid).collect();
-                let answer = find(&Photo::new(side as usize, side as usize, pixels), &[]);
+                let laid = |p: &[u8; 4]| [0, 1, 2].map(|k| 255 - (255 - p[k]) / 255 * p[3]);
+                let answer = find(&picture.map(laid), &[]);
                 assert!(answer.is_err(), "{name}, {emotion}: {:?}", answer.map(|f| f.score));
             }
         }

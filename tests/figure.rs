@@ -103,7 +103,7 @@ fn the_ends_of_the_links_lie_under_the_ink_of_other_strokes() {
                 for end in [link.0[0], link.0[3]] {
                     let x = 640.0 + (end.x - middle.x) * scale;
                     let y = 360.0 + (end.y - middle.y) * scale;
-                    let [r, ..] = picture.pixel(x as u32, y as u32).unwrap();
+                    let [r, ..] = picture[(x as usize, y as usize)];
                     assert!(r < 255, "white under a link's end of the {lip} in {:?} {:?}", pose.ratios, pose.mouth);
                     ends += 1;
                 }
@@ -147,7 +147,8 @@ fn the_nine_mouths_of_a_figure_differ_pairwise_in_pixels() {
             let mut painter = Painter::new(320, 180).unwrap();
             let pictures = MouthShape::ALL.map(|shape| {
                 let mouth = MouthPose::of(shape, MouthPreset::Distinct);
-                painter.paint(&figure.draw(&Pose { mouth, ..Pose::of(Ratios::pure(emotion)) })).rgba
+                let picture = painter.paint(&figure.draw(&Pose { mouth, ..Pose::of(Ratios::pure(emotion)) }));
+                picture.pixels().as_flattened().to_vec()
             });
             for (i, a) in pictures.iter().enumerate() {
                 for (j, b) in pictures.iter().enumerate().skip(i + 1) {

@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer, Raster};
+use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer, Picture, Raster};
 use lianpu::export::{Dedupe, Format, Job, Report, Request, divide, plan, run};
 use lianpu::geometry::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
 use lianpu::project::Lesson;
-use lianpu::render::{ClipCoder, Painter, Picture, decode_key};
+use lianpu::render::{ClipCoder, Painter, decode_key};
 
 fn lesson() -> Lesson {
     Lesson::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao")).unwrap()
@@ -46,12 +46,12 @@ fn decoded(file: &[u8]) -> Picture {
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut bytes).unwrap();
     reader.finish().unwrap();
-    let rgba = match info.color_type {
-        png::ColorType::Rgba => bytes,
-        png::ColorType::Rgb => bytes.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect(),
+    let pixels = match info.color_type {
+        png::ColorType::Rgba => bytes.as_chunks::<4>().0.to_vec(),
+        png::ColorType::Rgb => bytes.as_chunks::<3>().0.iter().map(|[r, g, b]| [*r, *g, *b, 255]).collect(),
         other => panic!("{other:?}"),
     };
-    Picture { width: info.width, height: info.height, rgba }
+    Picture::new(info.width as usize, info.height as usize, pixels)
 }
 
 fn painted(drawing: &Drawing, [width, height]: [u32; 2]) -> Picture {
@@ -142,12 +142,12 @@ fn any_drawing(step: u32, background: Option<Colour>) -> Drawing {
     let t = f64::from(if step.is_multiple_of(3) { 0 } else { step });
     let disc = |x: f64, y: f64, r: f64| Circle::new((x, y), r).to_path(0.01);
     let red = Colour::rgb(200, 30, 40);
-    let photo: Vec<u8> = (0..40 * 30 * 4_u32).map(|i| (i * 37 % 251) as u8).collect();
+    let photo = (0..40 * 30_u32).map(|i| [0, 1, 2, 3].map(|k| ((4 * i + k) * 37 % 251) as u8)).collect();
     let still = vec![
         Item::area("", disc(100.0, 100.0, 90.0), Colour::rgb(240, 220, 190)),
         Item::shared(vec![
             Item::glow("", Point::new(70.0, 110.0), Vec2::new(40.0, 25.0), red.faded(0.4)),
-            Item::Picture(Raster::new("", 40, 30, photo).placed_in(Rect::new(150.0, 20.0, 230.0, 80.0))),
+            Item::Picture(Raster::new("", Picture::new(40, 30, photo)).placed_in(Rect::new(150.0, 20.0, 230.0, 80.0))),
         ]),
     ];
     let star: BezPath = {

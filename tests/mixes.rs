@@ -2,13 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-use lianpu::aam::Similarity;
 use lianpu::emotion::{
     Binding, Choice, Decomposition, Moment, MouthMoves, Record, Row, SMOOTH_WIDTH, Steady, TrackRow, Tracks,
     smooth_record, smooth_tracks,
 };
 use lianpu::face::rig::{Neutral, Proportions};
-use lianpu::geometry::{Point, Vec2};
+use lianpu::geometry::{Point, Similarity, Vec2};
 use lianpu::pose::{Emotion, Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
 
 mod average_face;

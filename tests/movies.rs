@@ -13,9 +13,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lianpu::disk::Result;
 use lianpu::drawing::Colour;
+use lianpu::drawing::Picture;
 use lianpu::export::movie::{self, Container, Film};
 use lianpu::export::{Frames, Outcome, Watch, apng, gif};
-use lianpu::render::Picture;
 use lianpu::speech::Sound;
 use lianpu::timing::{Interval, Tier};
 
@@ -29,19 +29,19 @@ struct Disc {
 
 impl Disc {
     fn new(size: [u32; 2], count: u32, clear: bool) -> Self {
-        let picture = Picture { width: size[0], height: size[1], rgba: vec![0; (size[0] * size[1] * 4) as usize] };
+        let picture = Picture::filled(size[0] as usize, size[1] as usize, [0; 4]);
         Self { count, clear, flashes: Vec::new(), picture }
     }
 
     fn shown(&mut self, n: u32) -> Vec<u8> {
         self.show(n).unwrap();
-        self.picture.rgba.clone()
+        self.picture.pixels().as_flattened().to_vec()
     }
 }
 
 impl Frames for Disc {
     fn size(&self) -> [u32; 2] {
-        [self.picture.width, self.picture.height]
+        [self.picture.width(), self.picture.height()].map(|side| side as u32)
     }
 
     fn count(&self) -> u32 {
@@ -51,11 +51,11 @@ impl Frames for Disc {
     fn show(&mut self, n: u32) -> Result<(Range<u32>, Range<u32>)> {
         // Every third frame is held.
         let step = f64::from(n - u32::from(n % 3 == 2));
-        let (width, height) = (self.picture.width, self.picture.height);
+        let [width, height] = self.size();
         let at = [0.5 + 0.3 * (step * 0.21).sin(), 0.5 + 0.3 * (step * 0.13).cos()];
         let middle = [at[0] * f64::from(width), at[1] * f64::from(height)];
         let flash = self.flashes.contains(&n);
-        for (i, p) in self.picture.rgba.chunks_exact_mut(4).enumerate() {
+        for (i, p) in self.picture.pixels_mut().iter_mut().enumerate() {
             let (x, y) = ((i as u32 % width) as f64 + 0.5, (i as u32 / width) as f64 + 0.5);
             let far = (x - middle[0]).hypot(y - middle[1]);
             let cover = if flash { 1.0 } else { (f64::from(height) / 5.0 - far + 0.5).clamp(0.0, 1.0) };

@@ -155,9 +155,9 @@ fn every_stage_of_a_real_photo_is_drawn() {
         assert!(caption.contains(": ") && caption.len() < 160, "{caption}");
         assert_eq!(uncovered_in(drawing), None);
         let picture = painter.paint(drawing);
-        let colours: std::collections::BTreeSet<&[u8]> = picture.rgba.chunks_exact(4).collect();
+        let colours: std::collections::BTreeSet<_> = picture.pixels().iter().collect();
         assert!(colours.len() > 1, "{caption}: empty");
-        assert!(seen.insert(picture.rgba), "{caption}: as another");
+        assert!(seen.insert(picture.pixels().to_vec()), "{caption}: as another");
     }
     let sheet = plot::sheet(&parts, 5);
     assert_eq!(uncovered_in(&sheet), None);
@@ -197,13 +197,9 @@ fn a_portrait_out_of_focus_measures_more_blur_than_any_in_focus() {
     let photos = files("faces/london", "_neutral.jpg");
     let one = |path: &PathBuf| {
         let (photo, truth) = (Photo::read(path).unwrap(), pts(path));
-        let channel = |k: usize| {
-            let values = photo.pixels().iter().map(|p| f32::from(p[k])).collect();
-            Plane { width: photo.width(), height: photo.height(), values }.blurred(1.0).values
-        };
+        let channel = |k: usize| -> Plane { photo.map(|p| f32::from(p[k])).blurred(1.0) };
         let [r, g, b] = [0, 1, 2].map(channel);
-        let pixels = (0..r.len()).map(|i| [r[i] as u8, g[i] as u8, b[i] as u8]).collect();
-        let soft = Photo::new(photo.width(), photo.height(), pixels);
+        let soft = r.with(&g, |r, g| [*r as u8, *g as u8]).with(&b, |[r, g], b| [*r, *g, *b as u8]);
         [&photo, &soft].map(|p| quality(p, [truth[0], truth[1]]).blur)
     };
     let blurs: Vec<[f64; 2]> = photos.par_iter().step_by(6).map(one).collect();

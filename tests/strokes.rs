@@ -59,7 +59,7 @@ fn painted(painter: &mut Painter, chain: &[Ribbon]) -> Vec<f32> {
         background: None,
         layers: vec![Layer { name: "strokes".into(), items: vec![Item::ink("", chain.to_vec(), Colour::BLACK)] }],
     };
-    painter.paint(&drawing).rgba.chunks_exact(4).map(|p| f32::from(p[3]) / 255.0).collect()
+    painter.paint(&drawing).pixels().iter().map(|p| f32::from(p[3]) / 255.0).collect()
 }
 
 /// What is painted wrongly, as a share of what should be painted.

@@ -1,7 +1,6 @@
 //! Shapes laid over each other, so that what is left of their differences is form alone.
 
-use super::pose::{Similarity, middle};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2, centroid};
 
 /// Shapes turned, scaled and shifted onto their common mean.
 #[derive(Debug, Clone)]
@@ -28,7 +27,7 @@ pub fn align(shapes: &[Vec<Point>]) -> Option<Aligned> {
     for _ in 0..ROUNDS {
         laid = shapes.iter().map(|s| onto(s, &mean)).collect::<Option<Vec<_>>>()?;
         let sums: Vec<Point> =
-            (0..mean.len()).map(|i| middle(&laid.iter().map(|s: &Vec<Point>| s[i]).collect::<Vec<_>>())).collect();
+            (0..mean.len()).map(|i| centroid(&laid.iter().map(|s: &Vec<Point>| s[i]).collect::<Vec<_>>())).collect();
         // The mean may neither shrink nor turn away.
         let turned = onto(&sums, &mean)?;
         let next = unit(&turned)?;
@@ -39,10 +38,10 @@ pub fn align(shapes: &[Vec<Point>]) -> Option<Aligned> {
         }
     }
     // How the shapes are turned against the mean, together.
-    let turns = shapes.iter().filter_map(|s| Similarity::between(&mean, s)).map(|q| Vec2::from_angle(q.turn()));
+    let turns = shapes.iter().filter_map(|s| Similarity::between(&mean, s)).map(|q| Vec2::from_angle(q.angle()));
     let turn = turns.fold(Vec2::ZERO, |s, v| s + v);
     let upright =
-        Similarity { a: turn.x / turn.hypot().max(1e-9), b: turn.y / turn.hypot().max(1e-9), at: Point::ORIGIN };
+        Similarity { a: turn.x / turn.hypot().max(1e-9), b: turn.y / turn.hypot().max(1e-9), origin: Point::ORIGIN };
     if turn.hypot() > 1e-6 {
         for p in mean.iter_mut().chain(laid.iter_mut().flatten()) {
             *p = upright.apply(*p);
@@ -58,7 +57,7 @@ fn onto(shape: &[Point], mean: &[Point]) -> Option<Vec<Point>> {
 
 /// Moved to the origin and scaled to size 1.
 fn unit(shape: &[Point]) -> Option<Vec<Point>> {
-    let centre = middle(shape);
+    let centre = centroid(shape);
     let size = shape.iter().map(|p| (*p - centre).hypot2()).sum::<f64>().sqrt();
     (size > 1e-9).then(|| shape.iter().map(|p| ((*p - centre) / size).to_point()).collect())
 }
@@ -73,7 +72,7 @@ mod tests {
         let places = [(1.0, 0.0, 3.0), (0.3, 1.7, -80.0), (-2.0, 0.4, 9.0)];
         let shapes: Vec<Vec<Point>> = places
             .iter()
-            .map(|(a, b, x)| Similarity { a: *a, b: *b, at: Point::new(*x, 2.0 * x) })
+            .map(|(a, b, x)| Similarity { a: *a, b: *b, origin: Point::new(*x, 2.0 * x) })
             .map(|q| shape.iter().map(|p| q.apply(*p)).collect())
             .collect();
         let aligned = align(&shapes).unwrap();

@@ -5,11 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::grey::Grey;
-use super::pose::Similarity;
 use super::shape::Shapes;
 use crate::face::find::{Found, find};
 use crate::face::{FeaturePoint as P, Placed};
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// How a pose and a place along the modes follow from detected points. Rows: the four numbers of the pose in the frame of
 /// the pupils, then the modes; columns: a constant, then all x and all y of the points in that frame, about their mean.
@@ -33,10 +32,10 @@ impl Detected {
             let (frame, places) = framed(&found)?;
             let (q, along) = shapes.describe(&points.iter().map(|p| frame.undo(*p)).collect::<Vec<_>>())?;
             // A face that was found elsewhere than where it is marked teaches nothing.
-            if !(0.8..4.0).contains(&q.scale()) || q.at.to_vec2().hypot() > 1.5 {
+            if !(0.8..4.0).contains(&q.scale()) || q.origin.to_vec2().hypot() > 1.5 {
                 return None;
             }
-            let mut target = vec![q.a, q.b, q.at.x, q.at.y];
+            let mut target = vec![q.a, q.b, q.origin.x, q.origin.y];
             target.extend(along);
             Some((places, target))
         };
@@ -79,7 +78,7 @@ impl Detected {
             })
             .collect();
         let [a, b, x, y, along @ ..] = &told[..] else { return None };
-        let q = Similarity { a: *a, b: *b, at: Point::new(*x, *y) };
+        let q = Similarity { a: *a, b: *b, origin: Point::new(*x, *y) };
         Some(shapes.shape(along).iter().map(|p| frame.apply(q.apply(*p))).collect())
     }
 }
@@ -95,7 +94,7 @@ fn framed(found: &Found) -> Option<(Similarity, Vec<f64>)> {
     if across.hypot() < 1.0 {
         return None;
     }
-    let frame = Similarity { a: across.x, b: across.y, at: left.midpoint(right) };
+    let frame = Similarity::spanning(left, right);
     let numbers = found.points.iter().flat_map(|Placed { at, .. }| {
         let p = frame.undo(*at);
         [p.x, p.y]

@@ -4,12 +4,11 @@ use super::grey::Grey;
 use super::ground::Ground;
 use super::level::Level;
 use super::model::Model;
-use super::pose::Similarity;
 use super::shape::State;
 use super::simultaneous;
 use super::steady::steadied;
 use super::sums::{products, square};
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, Similarity};
 
 /// Where a fit begins.
 #[derive(Debug, Clone, Copy)]
@@ -360,7 +359,7 @@ impl<'m> Fitter<'m> {
             ended: points.clone(),
             points,
             p: along.iter().map(|p| f64::from(*p)).collect(),
-            q: Similarity { a: f64::from(*a), b: f64::from(*b), at: Point::new(f64::from(*x), f64::from(*y)) },
+            q: Similarity { a: f64::from(*a), b: f64::from(*b), origin: Point::new(f64::from(*x), f64::from(*y)) },
             confidence: self.model.trust.confidence(last.residual),
             residual: f64::from(last.residual.min(1.0)),
             iterations,

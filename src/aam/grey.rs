@@ -3,43 +3,21 @@
 use std::path::Path;
 
 use crate::disk::{Result, read_bytes};
-use crate::photo::{MAX_PHOTO_BYTES, Photo, Plane, jpeg_luma};
+use crate::drawing::Image;
+use crate::photo::{MAX_PHOTO_BYTES, Photo, jpeg_luma};
 
-/// Luma (Rec. 601 on sRGB values) of 8 bits, row by row from the top; pixel centres are whole numbers.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Grey {
-    width: usize,
-    height: usize,
-    pixels: Vec<u8>,
-}
+/// Luma (Rec. 601 on sRGB values) of 8 bits.
+pub type Grey = Image<u8>;
 
 impl Grey {
-    /// A picture of `width` × `height` pixels, row by row.
-    ///
-    /// # Panics
-    /// When there are not exactly `width * height` pixels, or none.
-    #[must_use]
-    pub fn new(width: usize, height: usize, pixels: Vec<u8>) -> Self {
-        assert!(width > 0 && height > 0 && pixels.len() == width * height, "a picture has width × height pixels");
-        Self { width, height, pixels }
-    }
-
     /// The luma of a photo.
     #[must_use]
     pub fn of(photo: &Photo) -> Self {
-        let luma = |p: &[u8; 3]| {
+        photo.map(|p| {
             let [r, g, b] = p.map(u32::from);
             // 0.299, 0.587, 0.114 in parts of 65536, rounded.
             ((19_595 * r + 38_470 * g + 7_471 * b + 32_768) >> 16) as u8
-        };
-        Self { width: photo.width(), height: photo.height(), pixels: photo.pixels().iter().map(luma).collect() }
-    }
-
-    /// A plane of values from 0 to 255, rounded.
-    #[must_use]
-    pub fn of_plane(plane: &Plane) -> Self {
-        let pixels = plane.values.iter().map(|v| v.round() as u8).collect();
-        Self { width: plane.width, height: plane.height, pixels }
+        })
     }
 
     /// Decodes the bytes of a PNG, JPEG or WebP file. Of a JPEG the colours are not decoded, which is what takes most
@@ -49,7 +27,7 @@ impl Grey {
     /// As [`Photo::decode`].
     pub fn decode(bytes: &[u8]) -> Result<Self> {
         match jpeg_luma(bytes) {
-            Some((width, height, pixels)) => Ok(Self::new(width, height, pixels)),
+            Some(grey) => Ok(grey),
             None => Ok(Self::of(&Photo::decode(bytes)?)),
         }
     }
@@ -62,27 +40,33 @@ impl Grey {
         Self::decode(&read_bytes(path, MAX_PHOTO_BYTES)?).map_err(|fault| fault.at(path))
     }
 
-    /// Pixels in a row.
+    /// Half the size: the means of blocks of two by two; an odd last row or column is left out.
+    ///
+    /// # Panics
+    /// When a side is 1.
     #[must_use]
-    pub fn width(&self) -> usize {
-        self.width
-    }
-
-    /// Rows.
-    #[must_use]
-    pub fn height(&self) -> usize {
-        self.height
-    }
-
-    /// The pixels, row by row.
-    #[must_use]
-    pub fn pixels(&self) -> &[u8] {
-        &self.pixels
+    pub fn halved(&self) -> Self {
+        let (width, height) = (self.width() / 2, self.height() / 2);
+        let mut pixels = Vec::with_capacity(width * height);
+        for y in 0..height {
+            halve(self.row(2 * y), self.row(2 * y + 1), &mut pixels);
+        }
+        Self::new(width, height, pixels)
     }
 
     /// The same in grey, as a photo.
     #[must_use]
     pub fn to_photo(&self) -> Photo {
-        Photo::new(self.width, self.height, self.pixels.iter().map(|v| [*v; 3]).collect())
+        self.map(|v| [*v; 3])
     }
+}
+
+/// Appends the means of blocks of two by two of two rows.
+pub(super) fn halve(top: &[u8], below: &[u8], out: &mut Vec<u8>) {
+    let ((top, _), (below, _)) = (top.as_chunks::<2>(), below.as_chunks::<2>());
+    out.extend(
+        top.iter()
+            .zip(below)
+            .map(|([a, b], [c, d])| ((u16::from(*a) + u16::from(*b) + u16::from(*c) + u16::from(*d) + 2) >> 2) as u8),
+    );
 }

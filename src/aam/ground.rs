@@ -1,7 +1,7 @@
 //! The part of a picture that a fit looks at: halved until its pixels are about as large as the model's, smoothed, and
 //! laid out so that four neighbours are read at once.
 
-use super::grey::Grey;
+use super::grey::{Grey, halve};
 use crate::geometry::Rect;
 
 /// A part of a picture. A place in it is counted in its own pixels, whose centres are whole numbers.
@@ -64,15 +64,13 @@ impl Ground {
         let mut step = 1;
         if left == 0 {
             for y in y0..y0 + height {
-                let at = y * grey.width() + x0;
-                self.pixels.extend_from_slice(&grey.pixels()[at..at + width]);
+                self.pixels.extend_from_slice(&grey.row(y)[x0..x0 + width]);
             }
         } else {
             (width, height) = (width / 2, height / 2);
             for y in 0..height {
-                let at = (y0 + 2 * y) * grey.width() + x0;
-                let (top, below) = grey.pixels()[at..].split_at(grey.width());
-                halve(&top[..2 * width], &below[..2 * width], &mut self.pixels);
+                let [top, below] = [0, 1].map(|i| &grey.row(y0 + 2 * y + i)[x0..x0 + 2 * width]);
+                halve(top, below, &mut self.pixels);
             }
             (step, left) = (2, left - 1);
         }
@@ -198,16 +196,6 @@ impl Ground {
         xs.iter_mut().for_each(|x| *x = *x * self.step + cx);
         ys.iter_mut().for_each(|y| *y = *y * self.step + cy);
     }
-}
-
-/// The means of blocks of two by two.
-fn halve(top: &[u8], below: &[u8], out: &mut Vec<u8>) {
-    let ((top, _), (below, _)) = (top.as_chunks::<2>(), below.as_chunks::<2>());
-    out.extend(
-        top.iter()
-            .zip(below)
-            .map(|([a, b], [c, d])| ((u16::from(*a) + u16::from(*b) + u16::from(*c) + u16::from(*d) + 2) >> 2) as u8),
-    );
 }
 
 #[cfg(test)]

@@ -2,8 +2,7 @@
 
 use super::align::align;
 use super::grey::Grey;
-use super::pose::Similarity;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// A point and its twin lie this near when one is mirrored, in widths of the mean shape.
 const NEAR: f64 = 0.08;
@@ -68,7 +67,7 @@ mod tests {
         let half = [(1.0, 0.0), (2.0, 1.0), (1.5, 2.5), (0.7, 3.0)].map(Point::from);
         let mut face: Vec<Point> = half.iter().flat_map(|p| [*p, Point::new(-p.x, p.y)]).collect();
         face.push(Point::new(0.0, 1.2));
-        let q = Similarity { a: 1.0, b: 0.1, at: Point::ORIGIN };
+        let q = Similarity { a: 1.0, b: 0.1, origin: Point::ORIGIN };
         let face: Vec<Point> = face.iter().map(|p| q.apply(*p)).collect();
         assert_eq!(twins(&face).unwrap(), [1, 0, 3, 2, 5, 4, 7, 6, 8]);
         assert!(twins(&[(0.0, 0.0), (3.0, 0.5), (1.0, 4.0), (9.0, 2.0)].map(Point::from)).is_none());

@@ -6,12 +6,11 @@ use super::fit::{Fit, Fitter, Start};
 use super::grey::Grey;
 use super::level::{Level, Look};
 use super::mesh::triangles;
-use super::pose::Similarity;
 use super::shape::Shapes;
 use super::skirt::{border, skirted};
 use super::trust::Trust;
 use crate::face::find::Found;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// A trained active appearance model, ready to fit.
 #[derive(Debug, Clone)]

@@ -3,6 +3,7 @@
 use super::ground::Channels;
 use super::level::grid;
 use super::model::Model;
+use crate::drawing::Picture;
 use crate::geometry::Point;
 
 /// How many deviations of a texture's values there are from black to white.
@@ -16,12 +17,12 @@ impl Model {
     }
 
     /// The mean look, moved `by` deviations along its mode (1 is the first; 0 and what there is not: none), painted onto
-    /// a shape in a picture of `width` × `height` pixels: grey with alpha, four bytes a pixel, nothing where the shape is
+    /// a shape in a picture of `width` × `height` pixels: grey with alpha, nothing where the shape is
     /// not. Of a model that compares edges the mean strength of edges is painted, dark on light.
     #[must_use]
-    pub fn painted(&self, shape: &[Point], mode: usize, by: f64, [width, height]: [usize; 2]) -> Vec<u8> {
-        let mut rgba = vec![0_u8; width * height * 4];
-        let (Some(level), Some(look)) = (self.levels.last(), self.stored.last()) else { return rgba };
+    pub fn painted(&self, shape: &[Point], mode: usize, by: f64, [width, height]: [usize; 2]) -> Picture {
+        let mut picture = Picture::filled(width, height, [0; 4]);
+        let (Some(level), Some(look)) = (self.levels.last(), self.stored.last()) else { return picture };
         let table = &level.table;
         let value = |t: usize, i: usize| f64::from(look.textures[t].values[i]) * f64::from(look.textures[t].step);
         let moved = look.textures.get(mode).filter(|_| mode > 0).map_or(0.0, |t| by * f64::from(t.deviation));
@@ -63,12 +64,11 @@ impl Model {
                         Channels::Edges => 1.0 - values[0].hypot(values[1]) / SPAN,
                     };
                     let grey = (255.0 * grey).clamp(0.0, 255.0) as u8;
-                    let i = 4 * (y * width + x);
-                    rgba[i..i + 4].copy_from_slice(&[grey, grey, grey, 255]);
+                    picture[(x, y)] = [grey, grey, grey, 255];
                 }
             }
         }
-        rgba
+        picture
     }
 }
 

@@ -3,8 +3,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::align::align;
-use super::pose::Similarity;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// A mean shape and its modes, in units of the mean's width. A vector over the points holds all their x, then all
 /// their y. Modes have length 1, are orthogonal to each other and to what a similarity does to the mean.

@@ -7,9 +7,8 @@
 //! talking, 96 % of the depth of lips that close is kept, 92 % of blinks', and a third of the trembling is gone.
 
 use super::fit::Fit;
-use super::pose::Similarity;
 use super::shape::Shapes;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// How far a number of the pose trembles, and one of the shape: the root mean square by which it moves the points, in widths
 /// of the mean shape. And how far the shape's numbers together do.
@@ -29,9 +28,9 @@ pub(super) fn steadied(shapes: &Shapes, before: &Fit, fit: &mut Fit) {
     let (q, last) = (fit.q, before.q);
     let a = held(last.a, q.a, radius / scale);
     let b = held(last.b, q.b, radius / scale);
-    let x = held(last.at.x, q.at.x, 1.0 / scale);
-    let y = held(last.at.y, q.at.y, 1.0 / scale);
-    fit.q = Similarity { a, b, at: Point::new(x, y) };
+    let x = held(last.origin.x, q.origin.x, 1.0 / scale);
+    let y = held(last.origin.y, q.origin.y, 1.0 / scale);
+    fit.q = Similarity { a, b, origin: Point::new(x, y) };
     let moved = fit.p.iter().zip(&before.p).map(|(p, last)| (p - last).powi(2)).sum::<f64>() / count;
     let whole = (moved / (WHOLE * WHOLE)).powi(3);
     for (p, last) in fit.p.iter_mut().zip(&before.p) {

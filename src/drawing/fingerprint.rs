@@ -111,9 +111,9 @@ impl Sum {
             Item::Picture(raster) => {
                 self.word(15);
                 raster.place().as_coeffs().into_iter().for_each(|v| self.number(v));
-                self.word(raster.width() as u64);
-                self.word(raster.height() as u64);
-                for pair in raster.rgba().chunks(8) {
+                self.word(raster.picture().width() as u64);
+                self.word(raster.picture().height() as u64);
+                for pair in raster.picture().pixels().as_flattened().chunks(8) {
                     self.word(pair.iter().fold(0, |word, byte| word << 8 | u64::from(*byte)));
                 }
             }

@@ -4,11 +4,13 @@
 
 mod colour;
 mod fingerprint;
+mod image;
 mod oklab;
 mod raster;
 mod shared;
 
 pub use colour::Colour;
+pub use image::{Image, Picture};
 pub use oklab::{Oklab, Oklch};
 pub use raster::Raster;
 pub use shared::Shared;

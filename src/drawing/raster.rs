@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::fit;
+use super::{Picture, fit};
 use crate::geometry::{Affine, Rect};
 
 /// A picture of pixels, moved to its place in a drawing. Copies share their pixels.
@@ -10,22 +10,15 @@ use crate::geometry::{Affine, Rect};
 pub struct Raster {
     /// What it is; may be empty.
     pub name: String,
-    width: usize,
-    height: usize,
-    rgba: Arc<[u8]>,
+    picture: Arc<Picture>,
     place: Affine,
 }
 
 impl Raster {
-    /// Straight sRGB with alpha, row by row from the top, four bytes a pixel; drawn from (0, 0), a unit a pixel.
-    ///
-    /// # Panics
-    /// When there are not exactly `width × height × 4` bytes, or none.
+    /// A picture, drawn from (0, 0), a unit a pixel.
     #[must_use]
-    pub fn new(name: impl Into<String>, width: usize, height: usize, rgba: impl Into<Arc<[u8]>>) -> Self {
-        let rgba = rgba.into();
-        assert!(width > 0 && height > 0 && rgba.len() == width * height * 4, "a raster has width × height pixels");
-        Self { name: name.into(), width, height, rgba, place: Affine::IDENTITY }
+    pub fn new(name: impl Into<String>, picture: impl Into<Arc<Picture>>) -> Self {
+        Self { name: name.into(), picture: picture.into(), place: Affine::IDENTITY }
     }
 
     /// The same pixels, whole and centred in `frame`.
@@ -41,22 +34,10 @@ impl Raster {
         Self { place, ..self }
     }
 
-    /// Pixels in a row.
+    /// The pixels.
     #[must_use]
-    pub fn width(&self) -> usize {
-        self.width
-    }
-
-    /// Rows.
-    #[must_use]
-    pub fn height(&self) -> usize {
-        self.height
-    }
-
-    /// Straight sRGB with alpha, row by row from the top, four bytes a pixel.
-    #[must_use]
-    pub fn rgba(&self) -> &[u8] {
-        &self.rgba
+    pub fn picture(&self) -> &Picture {
+        &self.picture
     }
 
     /// The move from pixels, whose corners are whole numbers, to the drawing.
@@ -68,6 +49,6 @@ impl Raster {
     /// Its own box, a unit a pixel.
     #[must_use]
     pub fn bounds(&self) -> Rect {
-        Rect::new(0.0, 0.0, self.width as f64, self.height as f64)
+        Rect::new(0.0, 0.0, self.picture.width() as f64, self.picture.height() as f64)
     }
 }

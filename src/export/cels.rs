@@ -119,11 +119,8 @@ pub(super) fn each(
 pub(super) fn pixels(frames: &dyn Frames, size: [u32; 2]) -> Result<&[u8]> {
     let picture = frames.picture();
     let length = size[0] as usize * size[1] as usize * 4;
-    if picture.rgba.len() == length {
-        Ok(&picture.rgba)
-    } else {
-        Err(Fault::new("a frame has another size than the others"))
-    }
+    let bytes = picture.pixels().as_flattened();
+    if bytes.len() == length { Ok(bytes) } else { Err(Fault::new("a frame has another size than the others")) }
 }
 
 #[cfg(test)]

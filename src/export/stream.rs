@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::disk::{Fault, Result};
-use crate::render::Picture;
+use crate::drawing::Picture;
 
 /// Where the frames of a moving picture come from.
 pub trait Frames {

@@ -177,7 +177,7 @@ fn mouth(set: &mut Set<'_>, located: &Located) {
 fn face(set: &mut Set<'_>, located: &Located) {
     let (face, d, middle) = (&set.stages.refined.face, located.eyes.distance(), located.eyes.middle());
     let cheeks = &located.cheeks;
-    let inside = |x: f64, y: f64| face.at(x.round() as isize, y.round() as isize);
+    let inside = |x: f64, y: f64| face.is_set(x.round() as isize, y.round() as isize);
 
     // A chin farther than a pupil distance below the lip is no chin: the walk has gone down the neck.
     let lip = set.at(P::P8_2);
@@ -222,7 +222,7 @@ fn hairline_corner(face: &Mask, located: &Located, walk: f64, out: f64) -> Optio
     let rows = (0..located.eyes.distance() as usize).map(|k| from - k as f64);
     let outline = rows.filter_map(|y| {
         let columns = (0..(1.3 * located.eyes.distance()) as usize).map(|k| middle.x + out * k as f64);
-        let last = columns.take_while(|x| face.at(x.round() as isize, y.round() as isize)).last()?;
+        let last = columns.take_while(|x| face.is_set(x.round() as isize, y.round() as isize)).last()?;
         Some(Point::new(last, y))
     });
     outline.max_by(|a, b| {
@@ -237,8 +237,8 @@ fn top_of(face: &Mask, located: &Located) -> Option<Point> {
     let (from, to) = (located.eyes.left.centre.x as isize, located.eyes.right.centre.x as isize);
     let start = located.edges.divisions.brow_eye as isize;
     let tops: Vec<(isize, isize)> = (from..=to)
-        .filter(|x| face.at(*x, start))
-        .map(|x| (x, (0..=start).rev().take_while(|y| face.at(x, *y)).last().unwrap_or(start)))
+        .filter(|x| face.is_set(*x, start))
+        .map(|x| (x, (0..=start).rev().take_while(|y| face.is_set(x, *y)).last().unwrap_or(start)))
         .collect();
     let top = tops.iter().map(|(_, y)| *y).min()?;
     let rows = top..top + ends(located) as isize;
@@ -293,10 +293,10 @@ pub fn hair_points(stages: &Stages, points: &[Placed; P::FIXED]) -> Option<[Plac
     for i in 0..OUTER {
         let start = along(i as f64 / (OUTER - 1) as f64);
         let out = (start - centre).normalize();
-        let walk = (0..hair.width + hair.height).map(|k| start + out * k as f64);
-        let end = walk.into_iter().find(|p| !hair.at(p.x.round() as isize, p.y.round() as isize))?;
+        let walk = (0..hair.width() + hair.height()).map(|k| start + out * k as f64);
+        let end = walk.into_iter().find(|p| !hair.is_set(p.x.round() as isize, p.y.round() as isize))?;
         let within = |v: f64, side: usize| v >= 1.0 && v <= side as f64 - 2.0;
-        if !within(end.x, hair.width) || !within(end.y, hair.height) {
+        if !within(end.x, hair.width()) || !within(end.y, hair.height()) {
             return None;
         }
         found.push(Placed { at: stages.to_photo(end), confidence: FOUND, how: How::Found });

@@ -9,6 +9,7 @@ mod pen;
 mod pieces;
 mod polygon;
 mod ribbon;
+mod similarity;
 mod spline;
 
 pub use brush::{brush, brush_in_steps, brush_ring};
@@ -20,6 +21,7 @@ pub use outline::outline;
 pub use pieces::outline_in_pieces;
 pub use polygon::{cut_corner, cut_corners, simplify};
 pub use ribbon::{Knot, Ribbon};
+pub use similarity::{Similarity, centroid};
 pub use spline::{equal_steps, flattened, spline};
 
 /// Calls `each` for every element of a path in order, with the number of its kind (move 1, line 2, quadratic 3, cubic 4,

@@ -51,17 +51,17 @@ impl Cheeks {
         for (offset, sum) in projection.iter_mut().enumerate() {
             let offset = offset as isize;
             for y in square.y0..square.y1 {
-                *sum += u32::from(face.at(column(-offset), y as isize));
-                *sum += u32::from(face.at(column(offset), y as isize));
+                *sum += u32::from(face.is_set(column(-offset), y as isize));
+                *sum += u32::from(face.is_set(column(offset), y as isize));
             }
         }
         let offset = boundary(&projection, d);
-        let left = column(-(offset as isize)).clamp(0, face.width as isize - 1) as usize;
-        let right = column(offset as isize).clamp(0, face.width as isize - 1) as usize;
-        let row = |y: f64| (y.max(0.0) as usize).min(face.height - 1);
+        let left = column(-(offset as isize)).clamp(0, face.width() as isize - 1) as usize;
+        let right = column(offset as isize).clamp(0, face.width() as isize - 1) as usize;
+        let row = |y: f64| (y.max(0.0) as usize).min(face.height() - 1);
         let (y0, y1) = (row(middle.y - EARS.0 * d), row(middle.y + EARS.1 * d) + 1);
         let reach = (EARS.2 * d) as usize;
-        let sides = [(left.saturating_sub(reach), left), (right + 1, (right + 1 + reach).min(face.width))];
+        let sides = [(left.saturating_sub(reach), left), (right + 1, (right + 1 + reach).min(face.width()))];
         let ears = sides.map(|(x0, x1)| (x0 < x1).then(|| ear(face, Bounds { x0, y0, x1, y1 }, d))?);
         Self { projection, rows: (square.y0, square.y1), left, right, ears }
     }
@@ -97,10 +97,7 @@ fn boundary(projection: &[u32], d: f64) -> usize {
 
 /// The largest region of the face within a box, where it is as large as an ear.
 fn ear(face: &Mask, within: Bounds, d: f64) -> Option<Ear> {
-    let rows = within.y0..within.y1;
-    let bits = rows.flat_map(|y| &face.bits[y * face.width + within.x0..y * face.width + within.x1]);
-    let cut = Mask { width: within.width(), height: within.height(), bits: bits.copied().collect() };
-    let regions = Regions::of(&cut, Neighbours::Four);
+    let regions = Regions::of(&face.crop(within.x0..within.x1, within.y0..within.y1), Neighbours::Four);
     let region = regions.list.iter().max_by_key(|r| r.area)?;
     let area = region.area as f64;
     if area < LEAST_EAR * d * d || area > FULLEST_EAR * within.area() as f64 {
@@ -125,7 +122,7 @@ mod tests {
                 let (dx, dy) = ((x as f64 - 200.0).abs(), y as f64 - 200.0);
                 let skull = (dx / 95.0).powi(2) + (dy / 130.0).powi(2) < 1.0;
                 let ear = ears && ((dx - 106.0) / 14.0).powi(2) + ((dy - 20.0) / 30.0).powi(2) < 1.0;
-                face.bits[y * 400 + x] = skull || ear;
+                face[(x, y)] = skull || ear;
             }
         }
         (face, Eyeballs::at(Point::new(155.0, 190.0), Point::new(245.0, 190.0)))

@@ -23,7 +23,7 @@ impl Cut {
         // Eq. 3.14: (x − x1)/2 + (x2 − x)/2, the same for every x.
         let half = (region.width() / 2).max(1);
         let shift = region.width() / 8;
-        let (first, last) = (middle.saturating_sub(shift), (middle + shift).min(intensity.width - 1));
+        let (first, last) = (middle.saturating_sub(shift), (middle + shift).min(intensity.width() - 1));
         let unlike: Vec<f64> = (first..=last)
             .map(|x| {
                 let row = |y: usize| {
@@ -51,7 +51,7 @@ mod tests {
         for y in 0..20_i32 {
             values.extend((0..60_i32).map(|x| ((x - 31).pow(2) + 3 * y) as f32));
         }
-        let plane = Plane { width: 60, height: 20, values };
+        let plane = Plane::new(60, 20, values);
         let cut = Cut::of(&plane, &Bounds { x0: 15, y0: 4, x1: 45, y1: 15 });
         assert_eq!((cut.x, cut.unlike[cut.x - cut.first]), (31, 0.0));
         let flat = Cut::of(&Plane::filled(60, 20, 0.5), &Bounds { x0: 15, y0: 4, x1: 45, y1: 15 });

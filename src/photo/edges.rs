@@ -59,11 +59,10 @@ impl Divisions {
 /// of the plane. The outermost pixels' values go on beyond the border.
 #[must_use]
 pub fn sobel(plane: &Plane) -> Plane {
-    let (width, height) = (plane.width, plane.height);
-    let mut values = Vec::with_capacity(plane.values.len());
-    let row = |y: usize| &plane.values[y * width..(y + 1) * width];
+    let (width, height) = (plane.width(), plane.height());
+    let mut values = Vec::with_capacity(width * height);
     for y in 0..height {
-        let (above, here, below) = (row(y.saturating_sub(1)), row(y), row((y + 1).min(height - 1)));
+        let (above, here, below) = (plane.row(y.saturating_sub(1)), plane.row(y), plane.row((y + 1).min(height - 1)));
         values.extend((0..width).map(|x| {
             let (l, r) = (x.saturating_sub(1), (x + 1).min(width - 1));
             let down = (below[l] + 2.0 * below[x] + below[r]) - (above[l] + 2.0 * above[x] + above[r]);
@@ -71,7 +70,7 @@ pub fn sobel(plane: &Plane) -> Plane {
             down.abs() + across.abs()
         }));
     }
-    Plane { width, height, values }
+    Plane::new(width, height, values)
 }
 
 impl Edges {
@@ -79,14 +78,14 @@ impl Edges {
     #[must_use]
     pub fn of(intensity: &Plane, eyes: &Eyeballs) -> Self {
         let sobel = sobel(intensity);
-        let square = eyes.square(intensity.width, intensity.height);
+        let square = eyes.square(intensity.width(), intensity.height());
         let divisions = Divisions::of(eyes);
         let mirrored = mirrored(&sobel, eyes, &square);
-        let mut binary = Mask::filled(intensity.width, intensity.height, false);
+        let mut binary = Mask::filled(intensity.width(), intensity.height(), false);
         let thresholds = divisions.parts(&square).map(|part| {
-            let places = (part.y0..part.y1).flat_map(|y| (part.x0..part.x1).map(move |x| y * intensity.width + x));
-            let threshold = moment_preserving(places.clone().map(|at| mirrored.values[at]))?;
-            places.for_each(|at| binary.bits[at] = mirrored.values[at] > threshold);
+            let places = (part.y0..part.y1).flat_map(|y| (part.x0..part.x1).map(move |x| (x, y)));
+            let threshold = moment_preserving(places.clone().map(|at| mirrored[at]))?;
+            places.for_each(|at| binary[at] = mirrored[at] > threshold);
             Some(threshold)
         });
         Self { sobel, mirrored, square, divisions, thresholds, binary }
@@ -103,7 +102,7 @@ fn mirrored(plane: &Plane, eyes: &Eyeballs, square: &Bounds) -> Plane {
             let p = Point::new(x as f64, y as f64);
             if (p - eyes.middle()).dot(across) < 0.0 {
                 let q = eyes.mirror(p);
-                mapped.values[y * plane.width + x] = plane.sample(q.x, q.y);
+                mapped[(x, y)] = plane.sample(q.x, q.y);
             }
         }
     }
@@ -116,14 +115,14 @@ mod tests {
 
     #[test]
     fn a_step_has_four_times_its_height_and_a_flat_plane_no_edge() {
-        let step = Plane { width: 6, height: 3, values: [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3) };
-        assert_eq!(sobel(&step).values[6..12], [0.0, 0.0, 4.0, 4.0, 0.0, 0.0]);
-        assert!(sobel(&Plane::filled(5, 5, 0.7)).values.iter().all(|v| *v == 0.0));
+        let step = Plane::new(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3));
+        assert_eq!(sobel(&step).row(1), [0.0, 0.0, 4.0, 4.0, 0.0, 0.0]);
+        assert!(sobel(&Plane::filled(5, 5, 0.7)).pixels().iter().all(|v| *v == 0.0));
     }
 
     #[test]
     fn the_left_half_becomes_the_mirror_image_of_the_right() {
-        let ramp = Plane { width: 41, height: 41, values: (0..41 * 41).map(|i| (i % 41) as f32).collect() };
+        let ramp = Plane::new(41, 41, (0..41 * 41).map(|i| (i % 41) as f32).collect());
         let eyes = Eyeballs::at(Point::new(15.0, 20.0), Point::new(25.0, 20.0));
         let square = eyes.square(41, 41);
         let mapped = mirrored(&ramp, &eyes, &square);

@@ -46,7 +46,7 @@ impl EyePairs {
     #[must_use]
     pub fn of(light: &Mask) -> Self {
         let dark = Regions::of(&light.not(), Neighbours::Four);
-        let (width, height) = (dark.width as f64, dark.height as f64);
+        let (width, height) = (dark.labels.width() as f64, dark.labels.height() as f64);
         let candidates: Vec<Region> = dark
             .list
             .iter()
@@ -110,7 +110,7 @@ mod tests {
         let mut light = Mask::filled(200, 200, true);
         for [x, y, w, h] in boxes {
             for row in *y..y + h {
-                light.bits[row * 200 + x..row * 200 + x + w].fill(false);
+                light.row_mut(row)[*x..x + w].fill(false);
             }
         }
         EyePairs::of(&light)

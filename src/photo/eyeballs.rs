@@ -40,7 +40,7 @@ impl Eyeball {
                 let mut sum = 0;
                 std::iter::once(0)
                     .chain((b.x0..b.x1).map(|x| {
-                        sum += u32::from(dark.labels[y * dark.width + x] == region.label);
+                        sum += u32::from(dark.labels[(x, y)] == region.label);
                         sum
                     }))
                     .collect()

@@ -18,11 +18,7 @@ impl Hsi {
     /// The channels of a photo.
     #[must_use]
     pub fn of(photo: &Photo) -> Self {
-        let plane = |of: &dyn Fn([u8; 3]) -> f32| Plane {
-            width: photo.width(),
-            height: photo.height(),
-            values: photo.pixels().iter().map(|p| of(*p)).collect(),
-        };
+        let plane = |of: &dyn Fn([u8; 3]) -> f32| photo.map(|p| of(*p));
         let sum = |p: [u8; 3]| f32::from(u16::from(p[0]) + u16::from(p[1]) + u16::from(p[2]));
         Self {
             hue: plane(&hue),
@@ -69,8 +65,8 @@ mod tests {
     #[test]
     fn saturation_and_intensity_keep_their_ranges() {
         let hsi = Hsi::of(&Photo::new(4, 1, vec![[0; 3], [255; 3], [255, 0, 0], [128, 64, 64]]));
-        assert_eq!(hsi.saturation.values, [0.0, 0.0, 1.0, 0.25]);
-        assert_eq!(hsi.intensity.values[1], 1.0);
-        assert!((hsi.intensity.values[2] - 1.0 / 3.0).abs() < 1e-6);
+        assert_eq!(hsi.saturation.pixels(), [0.0, 0.0, 1.0, 0.25]);
+        assert_eq!(hsi.intensity.pixels()[1], 1.0);
+        assert!((hsi.intensity.pixels()[2] - 1.0 / 3.0).abs() < 1e-6);
     }
 }

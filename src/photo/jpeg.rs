@@ -14,6 +14,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::limits::{MAX_PHOTO_SIDE, check_size, of_decoding, too_large};
 use crate::disk::{Fault, Result};
+use crate::drawing::Image;
 
 /// A file whose header was read, and promises no more pixels than may be decoded.
 struct Jpeg<'a> {
@@ -68,9 +69,9 @@ pub(super) fn upright(bytes: &[u8]) -> Result<DynamicImage> {
     Ok(image)
 }
 
-/// The width, height and luma of a whole JPEG file that stands upright and holds grey or YCbCr; none of any other.
+/// The luma of a whole JPEG file that stands upright and holds grey or YCbCr; none of any other.
 #[must_use]
-pub fn jpeg_luma(bytes: &[u8]) -> Option<(usize, usize, Vec<u8>)> {
+pub fn jpeg_luma(bytes: &[u8]) -> Option<Image<u8>> {
     if !bytes.starts_with(&[0xFF, 0xD8, 0xFF]) || !bytes.ends_with(&[0xFF, 0xD9]) {
         return None;
     }
@@ -81,7 +82,7 @@ pub fn jpeg_luma(bytes: &[u8]) -> Option<(usize, usize, Vec<u8>)> {
     }
     let pixels = jpeg.pixels(ColorSpace::Luma).ok()?;
     let whole = !pixels.is_empty() && pixels.len() == jpeg.width * jpeg.height;
-    whole.then_some((jpeg.width, jpeg.height, pixels))
+    whole.then(|| Image::new(jpeg.width, jpeg.height, pixels))
 }
 
 /// Whether a JPEG file goes on to its end. Decoders fill what is missing with grey and say nothing. Within the coded

@@ -1,18 +1,10 @@
 //! Binary images, and boxes in them.
 
-use super::Plane;
+use crate::drawing::Image;
 use crate::geometry::Point;
 
-/// A yes or no a pixel, row by row.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mask {
-    /// Pixels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// The values, row by row.
-    pub bits: Vec<bool>,
-}
+/// A yes or no a pixel.
+pub type Mask = Image<bool>;
 
 /// A box of whole pixels: from `x0`, `y0` up to, not including, `x1`, `y1`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +66,11 @@ impl Bounds {
         (self.x0..self.x1).contains(&x) && (self.y0..self.y1).contains(&y)
     }
 
+    /// Its pixels, row by row.
+    pub fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
+        (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| (x, y)))
+    }
+
     /// What two boxes share; none where they are apart.
     #[must_use]
     pub fn shared(&self, other: &Self) -> Option<Self> {
@@ -90,49 +87,53 @@ impl Bounds {
 }
 
 impl Mask {
-    /// A mask of one value.
-    #[must_use]
-    pub fn filled(width: usize, height: usize, value: bool) -> Self {
-        Self { width, height, bits: vec![value; width * height] }
-    }
-
-    /// The pixels of a plane that `pick` says yes to.
-    #[must_use]
-    pub fn of(plane: &Plane, pick: impl Fn(f32) -> bool) -> Self {
-        let bits = plane.values.iter().map(|v| pick(*v)).collect();
-        Self { width: plane.width, height: plane.height, bits }
-    }
-
     /// Whether a pixel is set; outside none is.
     #[must_use]
-    pub fn at(&self, x: isize, y: isize) -> bool {
-        x >= 0
-            && y >= 0
-            && (x as usize) < self.width
-            && (y as usize) < self.height
-            && self.bits[y as usize * self.width + x as usize]
+    pub fn is_set(&self, x: isize, y: isize) -> bool {
+        x >= 0 && y >= 0 && self.get(x as usize, y as usize) == Some(&true)
     }
 
     /// Pixels that are set.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.bits.iter().filter(|b| **b).count()
+        self.pixels().iter().filter(|b| **b).count()
     }
 
-    /// The same size, of what `join` makes of each pixel of both.
+    /// The indices of the pixels that are set, row by row.
+    pub fn indices(&self) -> impl Iterator<Item = usize> {
+        self.pixels().iter().enumerate().filter(|(_, set)| **set).map(|(i, _)| i)
+    }
+
+    /// The pixels set in both.
     ///
     /// # Panics
     /// When the sizes differ.
     #[must_use]
-    pub fn with(&self, other: &Self, join: impl Fn(bool, bool) -> bool) -> Self {
-        assert!(self.width == other.width && self.height == other.height, "masks of one image");
-        let bits = self.bits.iter().zip(&other.bits).map(|(a, b)| join(*a, *b)).collect();
-        Self { width: self.width, height: self.height, bits }
+    pub fn and(&self, other: &Self) -> Self {
+        self.with(other, |a, b| *a && *b)
     }
 
-    /// What is not set.
+    /// The pixels set in either.
+    ///
+    /// # Panics
+    /// When the sizes differ.
+    #[must_use]
+    pub fn or(&self, other: &Self) -> Self {
+        self.with(other, |a, b| *a || *b)
+    }
+
+    /// The pixels set in this and not in the other.
+    ///
+    /// # Panics
+    /// When the sizes differ.
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        self.with(other, |a, b| *a && !*b)
+    }
+
+    /// The pixels not set.
     #[must_use]
     pub fn not(&self) -> Self {
-        Self { width: self.width, height: self.height, bits: self.bits.iter().map(|b| !b).collect() }
+        self.map(|b| !b)
     }
 }

@@ -8,6 +8,7 @@ mod limits;
 mod jpeg;
 mod read;
 mod mask;
+mod morphology;
 mod hsi;
 mod threshold;
 mod regions;
@@ -43,53 +44,12 @@ pub use strip::without_metadata;
 pub use threshold::{FaceGround, LightDark, mean_deviation, moment_preserving};
 pub use write::to_clean_png;
 
-use crate::drawing::Colour;
+use crate::drawing::{Colour, Image};
 
-/// A photo as it is looked at: upright, opaque, straight sRGB of 8 bits a channel, row by row from the top.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Photo {
-    width: usize,
-    height: usize,
-    pixels: Vec<[u8; 3]>,
-}
+/// A photo as it is looked at: upright, opaque, straight sRGB of 8 bits a channel.
+pub type Photo = Image<[u8; 3]>;
 
 impl Photo {
-    /// A photo of `width` × `height` pixels, row by row.
-    ///
-    /// # Panics
-    /// When there are not exactly `width * height` pixels, or none.
-    #[must_use]
-    pub fn new(width: usize, height: usize, pixels: Vec<[u8; 3]>) -> Self {
-        assert!(width > 0 && height > 0 && pixels.len() == width * height, "a photo has width × height pixels");
-        Self { width, height, pixels }
-    }
-
-    /// Pixels in a row.
-    #[must_use]
-    pub fn width(&self) -> usize {
-        self.width
-    }
-
-    /// Rows.
-    #[must_use]
-    pub fn height(&self) -> usize {
-        self.height
-    }
-
-    /// The pixels, row by row.
-    #[must_use]
-    pub fn pixels(&self) -> &[[u8; 3]] {
-        &self.pixels
-    }
-
-    /// The pixel at `x`, `y`; beyond the border the nearest one.
-    #[must_use]
-    pub fn at(&self, x: isize, y: isize) -> [u8; 3] {
-        let x = x.clamp(0, self.width as isize - 1) as usize;
-        let y = y.clamp(0, self.height as isize - 1) as usize;
-        self.pixels[y * self.width + x]
-    }
-
     /// The pixel at `x`, `y` as a colour; beyond the border the nearest one.
     #[must_use]
     pub fn colour(&self, x: isize, y: isize) -> Colour {
@@ -101,20 +61,20 @@ impl Photo {
     /// larger. Returns how many of its pixels make one of the small one.
     #[must_use]
     pub fn at_most(&self, side: usize) -> (std::borrow::Cow<'_, Self>, f64) {
-        let longest = self.width.max(self.height);
+        let longest = self.width().max(self.height());
         if longest <= side {
             return (std::borrow::Cow::Borrowed(self), 1.0);
         }
         let factor = longest as f64 / side as f64;
-        let width = ((self.width as f64 / factor).round() as usize).max(1);
-        let height = ((self.height as f64 / factor).round() as usize).max(1);
-        let columns = spans(self.width, width, factor);
-        let rows = spans(self.height, height, factor);
+        let width = ((self.width() as f64 / factor).round() as usize).max(1);
+        let height = ((self.height() as f64 / factor).round() as usize).max(1);
+        let columns = spans(self.width(), width, factor);
+        let rows = spans(self.height(), height, factor);
         let mut pixels = Vec::with_capacity(width * height);
         for (top, bottom) in &rows {
             let mut sums = vec![[0_u32; 3]; width];
             for y in *top..*bottom {
-                let row = &self.pixels[y * self.width..(y + 1) * self.width];
+                let row = self.row(y);
                 for (sum, (left, right)) in sums.iter_mut().zip(&columns) {
                     for pixel in &row[*left..*right] {
                         for (s, v) in sum.iter_mut().zip(pixel) {
@@ -128,7 +88,7 @@ impl Photo {
                 sum.map(|s| ((s + count / 2) / count) as u8)
             }));
         }
-        (std::borrow::Cow::Owned(Self { width, height, pixels }), factor)
+        (std::borrow::Cow::Owned(Self::new(width, height, pixels)), factor)
     }
 }
 

@@ -1,54 +1,24 @@
 //! One channel of a picture as numbers.
 
 use super::Photo;
+use crate::drawing::Image;
 
-/// One number a pixel, row by row; pixel centres are whole numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Plane {
-    /// Pixels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// The values, row by row.
-    pub values: Vec<f32>,
-}
+/// One number a pixel.
+pub type Plane = Image<f32>;
 
 impl Plane {
-    /// A plane of one value.
-    #[must_use]
-    pub fn filled(width: usize, height: usize, value: f32) -> Self {
-        Self { width, height, values: vec![value; width * height] }
-    }
-
     /// The luma of a photo (Rec. 601 weights on the sRGB values), 0 to 255.
     #[must_use]
     pub fn luma(photo: &Photo) -> Self {
-        let values =
-            photo.pixels().iter().map(|p| 0.299 * f32::from(p[0]) + 0.587 * f32::from(p[1]) + 0.114 * f32::from(p[2]));
-        Self { width: photo.width(), height: photo.height(), values: values.collect() }
-    }
-
-    /// The value of a pixel; beyond the border that of the nearest one.
-    #[must_use]
-    pub fn at(&self, x: isize, y: isize) -> f32 {
-        let x = x.clamp(0, self.width as isize - 1) as usize;
-        let y = y.clamp(0, self.height as isize - 1) as usize;
-        self.values[y * self.width + x]
+        photo.map(|p| 0.299 * f32::from(p[0]) + 0.587 * f32::from(p[1]) + 0.114 * f32::from(p[2]))
     }
 
     /// The value between pixels, bilinear; beyond the border that of the nearest pixel.
     #[must_use]
     pub fn sample(&self, x: f64, y: f64) -> f32 {
-        let x = x.clamp(0.0, (self.width - 1) as f64);
-        let y = y.clamp(0.0, (self.height - 1) as f64);
-        let (x0, y0) = (x as usize, y as usize);
-        let (x1, y1) = ((x0 + 1).min(self.width - 1), (y0 + 1).min(self.height - 1));
-        let (fx, fy) = ((x - x0 as f64) as f32, (y - y0 as f64) as f32);
-        let row = |y: usize| {
-            let (a, b) = (self.values[y * self.width + x0], self.values[y * self.width + x1]);
-            a + (b - a) * fx
-        };
-        let (top, bottom) = (row(y0), row(y1));
+        let ([a, b, c, d], [fx, fy]) = self.around(x, y);
+        let (fx, fy) = (fx as f32, fy as f32);
+        let (top, bottom) = (a + (b - a) * fx, c + (d - c) * fx);
         top + (bottom - top) * fy
     }
 
@@ -63,23 +33,77 @@ impl Plane {
             (0..=2 * reach).map(|i| (-0.5 * ((i as f64 - reach as f64) / sigma).powi(2)).exp() as f32).collect();
         let sum: f32 = kernel.iter().sum();
         kernel.iter_mut().for_each(|k| *k /= sum);
-        let mut across = Vec::with_capacity(self.values.len());
+        let (width, height) = (self.width(), self.height());
+        let mut across = Vec::with_capacity(width * height);
         let mut line = Vec::new();
-        for row in self.values.chunks_exact(self.width) {
+        for row in self.rows() {
             line.clear();
             line.extend(std::iter::repeat_n(row[0], reach));
             line.extend_from_slice(row);
-            line.extend(std::iter::repeat_n(row[self.width - 1], reach));
+            line.extend(std::iter::repeat_n(row[width - 1], reach));
             across.extend(line.windows(kernel.len()).map(|w| w.iter().zip(&kernel).map(|(v, k)| v * k).sum::<f32>()));
         }
-        let mut values = vec![0.0_f32; self.values.len()];
-        for (y, out) in values.chunks_exact_mut(self.width).enumerate() {
+        let across = Self::new(width, height, across);
+        let mut blurred = Self::filled(width, height, 0.0);
+        for y in 0..height {
+            let out = blurred.row_mut(y);
             for (i, k) in kernel.iter().enumerate() {
-                let from = (y + i).saturating_sub(reach).min(self.height - 1);
-                let row = &across[from * self.width..(from + 1) * self.width];
-                out.iter_mut().zip(row).for_each(|(o, v)| *o += k * v);
+                let from = (y + i).saturating_sub(reach).min(height - 1);
+                out.iter_mut().zip(across.row(from)).for_each(|(o, v)| *o += k * v);
             }
         }
-        Self { width: self.width, height: self.height, values }
+        blurred
+    }
+
+    /// The means over squares of `2 radius + 1` pixels, cut at the border.
+    #[must_use]
+    pub fn boxed(&self, radius: usize) -> Self {
+        let (width, height) = (self.width(), self.height());
+        let mut across = Self::filled(width, height, 0.0);
+        for (y, row) in self.rows().enumerate() {
+            let mut sum: f32 = row.iter().take(radius).sum();
+            for (x, o) in across.row_mut(y).iter_mut().enumerate() {
+                if x + radius < width {
+                    sum += row[x + radius];
+                }
+                if x > radius {
+                    sum -= row[x - radius - 1];
+                }
+                let count = (x + radius + 1).min(width) - x.saturating_sub(radius);
+                *o = sum / count as f32;
+            }
+        }
+        let mut out = Self::filled(width, height, 0.0);
+        let mut sums = vec![0.0_f32; width];
+        let add = |sums: &mut [f32], y: usize, sign: f32| {
+            sums.iter_mut().zip(across.row(y)).for_each(|(s, v)| *s += sign * v);
+        };
+        (0..radius.min(height)).for_each(|y| add(&mut sums, y, 1.0));
+        for y in 0..height {
+            if y + radius < height {
+                add(&mut sums, y + radius, 1.0);
+            }
+            if y > radius {
+                add(&mut sums, y - radius - 1, -1.0);
+            }
+            let share = 1.0 / ((y + radius + 1).min(height) - y.saturating_sub(radius)) as f32;
+            out.row_mut(y).iter_mut().zip(&sums).for_each(|(o, s)| *o = s * share);
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_mean_keeps_constants_and_sums_what_it_covers() {
+        assert!(Plane::filled(230, 290, 0.25).boxed(6).pixels().iter().all(|v| (v - 0.25).abs() < 1e-4));
+        assert_eq!(Plane::filled(2, 1, 0.5).boxed(6), Plane::filled(2, 1, 0.5));
+        let mut one = Plane::filled(230, 290, 0.0);
+        one[(100, 100)] = 1.0;
+        let mean = one.boxed(2);
+        assert!((mean[(98, 102)] - 0.04).abs() < 1e-6 && mean[(98, 103)].abs() < 1e-6);
     }
 }

@@ -36,25 +36,22 @@ impl Quality {
         if b.width() < 16 || b.height() < 16 {
             return None;
         }
-        let rows = (b.y0..b.y1).map(|y| &photo.pixels()[y * photo.width() + b.x0..y * photo.width() + b.x1]);
-        let cut = Photo::new(b.width(), b.height(), rows.flatten().copied().collect());
+        let cut = photo.crop(b.x0..b.x1, b.y0..b.y1);
         let luma = Plane::luma(&cut);
-        let count = luma.values.len() as f64;
+        let count = luma.pixels().len() as f64;
         let share = |n: usize| n as f64 / count;
-        let mut sorted = luma.values.clone();
+        let mut sorted = luma.pixels().to_vec();
         sorted.sort_by(f32::total_cmp);
         let at = |share: f64| f64::from(sorted[(share * (sorted.len() - 1) as f64) as usize]);
-        let half = luma.width / 2;
-        let sum = |from: usize, to: usize| {
-            luma.values.chunks_exact(luma.width).flat_map(|r| &r[from..to]).map(|v| f64::from(*v)).sum::<f64>()
-        };
-        let (left, right) = (sum(0, half), sum(luma.width - half, luma.width));
+        let half = luma.width() / 2;
+        let sum = |from: usize, to: usize| luma.rows().flat_map(|r| &r[from..to]).map(|v| f64::from(*v)).sum::<f64>();
+        let (left, right) = (sum(0, half), sum(luma.width() - half, luma.width()));
         Some(Self {
             blur: blur(&luma),
             noise: noise(&luma),
-            mean: luma.values.iter().map(|v| f64::from(*v)).sum::<f64>() / count,
+            mean: luma.pixels().iter().map(|v| f64::from(*v)).sum::<f64>() / count,
             contrast: at(0.95) - at(0.05),
-            dark: share(luma.values.iter().filter(|v| **v < 8.0).count()),
+            dark: share(luma.pixels().iter().filter(|v| **v < 8.0).count()),
             clipped: share(cut.pixels().iter().filter(|p| p.iter().any(|c| *c >= 254)).count()),
             side: if left + right > 0.0 { (right - left) / (right + left) } else { 0.0 },
         })
@@ -68,8 +65,8 @@ fn blur(luma: &Plane) -> f64 {
     let along = |step: (isize, isize)| {
         let blurred = |x: isize, y: isize| (-4..=4).map(|k| luma.at(x + k * step.0, y + k * step.1)).sum::<f32>() / 9.0;
         let (mut sharp, mut lost) = (0.0_f64, 0.0_f64);
-        for y in step.1..luma.height as isize {
-            for x in step.0..luma.width as isize {
+        for y in step.1..luma.height() as isize {
+            for x in step.0..luma.width() as isize {
                 let own = (luma.at(x, y) - luma.at(x - step.0, y - step.1)).abs();
                 let left = (blurred(x, y) - blurred(x - step.0, y - step.1)).abs();
                 sharp += f64::from(own);
@@ -85,12 +82,12 @@ fn blur(luma: &Plane) -> f64 {
 /// edges, so that texture is not taken for noise.
 fn noise(luma: &Plane) -> f64 {
     let edges = sobel(&luma.blurred(1.0));
-    let mut sorted = edges.values.clone();
+    let mut sorted = edges.pixels().to_vec();
     let middle = sorted.len() / 2;
     let limit = *sorted.select_nth_unstable_by(middle, f32::total_cmp).1;
     let (mut sum, mut count) = (0.0_f64, 0.0_f64);
-    for y in 1..luma.height as isize - 1 {
-        for x in 1..luma.width as isize - 1 {
+    for y in 1..luma.height() as isize - 1 {
+        for x in 1..luma.width() as isize - 1 {
             if edges.at(x, y) <= limit {
                 let l = |dx: isize, dy: isize| luma.at(x + dx, y + dy);
                 let sides = l(-1, 0) + l(1, 0) + l(0, -1) + l(0, 1);
@@ -136,12 +133,8 @@ mod tests {
     #[test]
     fn blurring_raises_blur_and_light_from_the_right_shows() {
         let checks = |x: usize, y: usize| ((x / 8 + y / 8) % 2) as f32;
-        let plane = Plane {
-            width: 96,
-            height: 96,
-            values: (0..96 * 96).map(|i| 40.0 + 160.0 * checks(i % 96, i / 96)).collect(),
-        };
-        let photo = |plane: &Plane| Photo::new(96, 96, plane.values.iter().map(|v| [*v as u8; 3]).collect());
+        let plane = Plane::new(96, 96, (0..96 * 96).map(|i| 40.0 + 160.0 * checks(i % 96, i / 96)).collect());
+        let photo = |plane: &Plane| plane.map(|v| [*v as u8; 3]);
         let whole = Bounds::whole(96, 96);
         let blurs: Vec<f64> =
             [0.0, 1.0, 2.0, 3.0].map(|s| Quality::of(&photo(&plane.blurred(s)), &whole).unwrap().blur).to_vec();

@@ -32,7 +32,7 @@ impl Features {
     /// the middles of the eyeballs.
     #[must_use]
     pub fn of(edges: &Edges, eyes: &Eyeballs) -> Self {
-        let (width, height) = (edges.binary.width, edges.binary.height);
+        let (width, height) = (edges.binary.width(), edges.binary.height());
         let [brows, eye_part, nose_part, mouth_part] = edges.divisions.parts(&edges.square);
         let between = |from: Point, to: Point| Bounds::between(from, to, width, height);
         let (left, right) = (eyes.left, eyes.right);
@@ -66,21 +66,19 @@ impl Features {
 /// The edges within `limits` that hang together with one in `search`.
 fn grown(binary: &Mask, search: Bounds, limits: Bounds) -> Feature {
     let search = search.shared(&limits).unwrap_or(limits);
-    let rows = limits.y0..limits.y1;
-    let bits = rows.flat_map(|y| &binary.bits[y * binary.width + limits.x0..y * binary.width + limits.x1]);
-    let cut = Mask { width: limits.width(), height: limits.height(), bits: bits.copied().collect() };
+    let cut = binary.crop(limits.x0..limits.x1, limits.y0..limits.y1);
     let regions = Regions::of(&cut, Neighbours::Eight);
     let mut seeded = vec![false; regions.list.len() + 1];
     for y in search.y0..search.y1 {
         for x in search.x0..search.x1 {
-            seeded[regions.labels[(y - limits.y0) * cut.width + x - limits.x0] as usize] = true;
+            seeded[regions.labels[(x - limits.x0, y - limits.y0)] as usize] = true;
         }
     }
     seeded[0] = false;
     let mut pixels = Vec::new();
-    for (at, label) in regions.labels.iter().enumerate() {
+    for (at, label) in regions.labels.pixels().iter().enumerate() {
         if seeded[*label as usize] {
-            pixels.push((limits.x0 + at % cut.width, limits.y0 + at / cut.width));
+            pixels.push((limits.x0 + at % cut.width(), limits.y0 + at / cut.width()));
         }
     }
     let mut bounds: Option<Bounds> = None;

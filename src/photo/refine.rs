@@ -20,8 +20,8 @@ impl Refined {
     pub fn of(light: &Mask, ground: &Mask) -> Self {
         let backgrounds = Regions::of(ground, Neighbours::Four);
         let enclosed = backgrounds.mask_of(|r| !backgrounds.at_border(r));
-        let face = enclosed.with(ground, |enclosed, ground| enclosed || !ground);
-        let light_ground = light.with(ground, |light, ground| light && ground);
+        let face = enclosed.with(ground, |enclosed, ground| *enclosed || !ground);
+        let light_ground = light.with(ground, |light, ground| *light && *ground);
         let grounds = Regions::of(&light_ground, Neighbours::Four);
         let hair = grounds.mask_of(|r| grounds.at_border(r)).not();
         Self { face, light_ground, hair }
@@ -39,11 +39,13 @@ mod tests {
         let light = drawn(&["########", "##....##", "##.##.##", "##...###", "##.##.##", "########"]);
         let ground = drawn(&["########", "########", "##....##", "##.##.##", "##....##", "########"]);
         let refined = Refined::of(&light, &ground);
-        assert_eq!(
-            refined.face.bits,
-            drawn(&["........", "........", "..####..", "..####..", "..####..", "........"]).bits
+        assert_eq!(refined.face, drawn(&["........", "........", "..####..", "..####..", "..####..", "........"]));
+        assert!(
+            refined.hair.is_set(2, 1)
+                && refined.hair.is_set(3, 3)
+                && !refined.hair.is_set(0, 1)
+                && !refined.hair.is_set(7, 5)
         );
-        assert!(refined.hair.at(2, 1) && refined.hair.at(3, 3) && !refined.hair.at(0, 1) && !refined.hair.at(7, 5));
-        assert!(!refined.light_ground.at(3, 3 + 1) && refined.light_ground.at(0, 0));
+        assert!(!refined.light_ground.is_set(3, 3 + 1) && refined.light_ground.is_set(0, 0));
     }
 }

@@ -1,6 +1,7 @@
 //! Region growing: pixels that hang together (thesis sec. 3.3.2, steps 5 and 6).
 
 use super::{Bounds, Mask};
+use crate::drawing::Image;
 
 /// Which pixels are neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,12 +26,8 @@ pub struct Region {
 /// All regions of a mask.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Regions {
-    /// Pixels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// A region's number a pixel, row by row; 0 where the mask is not set.
-    pub labels: Vec<u32>,
+    /// A region's number a pixel; 0 where the mask is not set.
+    pub labels: Image<u32>,
     /// The regions, in the order of their first pixels.
     pub list: Vec<Region>,
 }
@@ -39,12 +36,13 @@ impl Regions {
     /// The regions of the set pixels of a mask.
     #[must_use]
     pub fn of(mask: &Mask, neighbours: Neighbours) -> Self {
-        let (width, height) = (mask.width, mask.height);
-        let mut labels = vec![0_u32; mask.bits.len()];
+        let (width, height) = (mask.width(), mask.height());
+        let bits = mask.pixels();
+        let mut labels = vec![0_u32; bits.len()];
         let mut list: Vec<Region> = Vec::new();
         let mut open: Vec<usize> = Vec::new();
-        for seed in 0..mask.bits.len() {
-            if !mask.bits[seed] || labels[seed] != 0 {
+        for seed in 0..bits.len() {
+            if !bits[seed] || labels[seed] != 0 {
                 continue;
             }
             let label = list.len() as u32 + 1;
@@ -63,7 +61,7 @@ impl Regions {
                         _ => (left, right),
                     };
                     let start = row * width + from;
-                    let places = labels[start..=row * width + to].iter_mut().zip(&mask.bits[start..]);
+                    let places = labels[start..=row * width + to].iter_mut().zip(&bits[start..]);
                     for (i, (there, set)) in places.enumerate() {
                         if *set && *there == 0 {
                             *there = label;
@@ -74,22 +72,21 @@ impl Regions {
             }
             list.push(region);
         }
-        Self { width, height, labels, list }
+        Self { labels: Image::new(width, height, labels), list }
     }
 
     /// Whether a region touches the image's border.
     #[must_use]
     pub fn at_border(&self, region: &Region) -> bool {
         let b = region.bounds;
-        b.x0 == 0 || b.y0 == 0 || b.x1 == self.width || b.y1 == self.height
+        b.x0 == 0 || b.y0 == 0 || b.x1 == self.labels.width() || b.y1 == self.labels.height()
     }
 
     /// The pixels of the regions that `pick` says yes to.
     #[must_use]
     pub fn mask_of(&self, pick: impl Fn(&Region) -> bool) -> Mask {
         let picked: Vec<bool> = std::iter::once(false).chain(self.list.iter().map(pick)).collect();
-        let bits = self.labels.iter().map(|l| picked[*l as usize]).collect();
-        Mask { width: self.width, height: self.height, bits }
+        self.labels.map(|l| picked[*l as usize])
     }
 
     /// The pixels of one region, row by row.
@@ -97,14 +94,14 @@ impl Regions {
         let (b, label) = (region.bounds, region.label);
         (b.y0..b.y1)
             .flat_map(move |y| (b.x0..b.x1).map(move |x| (x, y)))
-            .filter(move |(x, y)| self.labels[y * self.width + x] == label)
+            .filter(move |(x, y)| self.labels[(*x, *y)] == label)
     }
 }
 
 #[cfg(test)]
 pub(super) fn drawn(rows: &[&str]) -> Mask {
     let bits = rows.iter().flat_map(|r| r.bytes().map(|b| b == b'#')).collect();
-    Mask { width: rows[0].len(), height: rows.len(), bits }
+    Mask::new(rows[0].len(), rows.len(), bits)
 }
 
 #[cfg(test)]

@@ -31,8 +31,7 @@ pub struct FaceGround {
 /// The mean of a plane within a box and its standard deviation over n − 1; the deviation of one pixel is 0.
 #[must_use]
 pub fn mean_deviation(plane: &Plane, within: &Bounds) -> (f64, f64) {
-    let rows =
-        || (within.y0..within.y1).map(|y| &plane.values[y * plane.width + within.x0..y * plane.width + within.x1]);
+    let rows = || (within.y0..within.y1).map(|y| &plane.row(y)[within.x0..within.x1]);
     let count = within.area() as f64;
     let mean = rows().flatten().map(|v| f64::from(*v)).sum::<f64>() / count;
     let squares = rows().flatten().map(|v| (f64::from(*v) - mean).powi(2)).sum::<f64>();
@@ -45,7 +44,7 @@ impl LightDark {
     pub fn of(intensity: &Plane, central: &Bounds) -> Self {
         let (mean, deviation) = mean_deviation(intensity, central);
         let threshold = mean - deviation;
-        Self { mean, deviation, threshold, light: Mask::of(intensity, |v| f64::from(v) > threshold) }
+        Self { mean, deviation, threshold, light: intensity.map(|v| f64::from(*v) > threshold) }
     }
 }
 
@@ -55,8 +54,8 @@ impl FaceGround {
     #[must_use]
     pub fn of(hue: &Plane, light: &Mask, central: &Bounds) -> Self {
         let (mean, deviation) = mean_deviation(hue, central);
-        let far = Mask::of(hue, |v| hue_distance(v, mean as f32) > deviation as f32);
-        Self { mean, deviation, ground: far.with(light, |far, light| far || !light) }
+        let far = hue.map(|v| hue_distance(*v, mean as f32) > deviation as f32);
+        Self { mean, deviation, ground: far.with(light, |far, light| *far || !light) }
     }
 }
 
@@ -125,10 +124,10 @@ mod tests {
 
     #[test]
     fn a_dark_pixel_of_the_faces_hue_is_not_face() {
-        let hue = Plane { width: 4, height: 1, values: vec![10.0, 12.0, 11.0, 90.0] };
-        let light = Mask { width: 4, height: 1, bits: vec![true, true, false, true] };
+        let hue = Plane::new(4, 1, vec![10.0, 12.0, 11.0, 90.0]);
+        let light = Mask::new(4, 1, vec![true, true, false, true]);
         let split = FaceGround::of(&hue, &light, &Bounds { x0: 0, y0: 0, x1: 3, y1: 1 });
         assert_eq!((split.mean, split.deviation), (11.0, 1.0));
-        assert_eq!(split.ground.bits, [false, false, true, true]);
+        assert_eq!(split.ground.pixels(), [false, false, true, true]);
     }
 }

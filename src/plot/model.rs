@@ -109,8 +109,8 @@ impl<'m> Page<'m> {
         let (width, height) = ((self.view.width() * scale) as usize + 1, (self.view.height() * scale) as usize + 1);
         let at = |p: Point| (Affine::scale(2.0) * self.place) * p;
         let placed: Vec<Point> = shape.iter().map(|p| at(*p)).collect();
-        let rgba = self.model.painted(&placed, mode, by, [width, height]);
-        let raster = Raster::new("face", width, height, rgba).placed(Affine::scale(0.5));
+        let painted = self.model.painted(&placed, mode, by, [width, height]);
+        let raster = Raster::new("face", painted).placed(Affine::scale(0.5));
         let mut items = vec![Item::Picture(raster)];
         if dots {
             let dot = |p: &Point| Item::area("", Circle::new(self.place * *p, 1.6).to_path(0.05), POINTS);

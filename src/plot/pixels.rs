@@ -1,14 +1,14 @@
 //! Photos, masks and planes as pixels in a chart.
 
-use crate::drawing::{Colour, Item, Raster};
+use crate::drawing::{Colour, Item, Picture, Raster};
 use crate::geometry::Affine;
 use crate::photo::{Bounds, Hsi, Mask, Photo, Plane, hue_distance};
 
 /// Paper where a mask is not set.
 pub(super) const LIGHT: Colour = Colour::rgb(0xF4, 0xF3, 0xEF);
 
-fn raster(width: usize, height: usize, pixels: impl Iterator<Item = [u8; 4]>) -> Item {
-    Item::Picture(Raster::new("", width, height, pixels.flatten().collect::<Vec<u8>>()))
+fn raster(picture: Picture) -> Item {
+    Item::Picture(Raster::new("", picture))
 }
 
 fn rgba(c: Colour) -> [u8; 4] {
@@ -17,30 +17,29 @@ fn rgba(c: Colour) -> [u8; 4] {
 
 /// A photo in a drawing, a unit a pixel.
 pub(super) fn image(photo: &Photo) -> Item {
-    raster(photo.width(), photo.height(), photo.pixels().iter().map(|p| [p[0], p[1], p[2], 255]))
+    raster(photo.map(|p| [p[0], p[1], p[2], 255]))
 }
 
 /// A photo as a pale ground for what is drawn over it.
 pub(super) fn faded(photo: &Photo) -> Item {
     let pale = |v: u8| (110 + u16::from(v) * 145 / 255) as u8;
-    raster(photo.width(), photo.height(), photo.pixels().iter().map(|p| [pale(p[0]), pale(p[1]), pale(p[2]), 255]))
+    raster(photo.map(|p| [pale(p[0]), pale(p[1]), pale(p[2]), 255]))
 }
 
 /// A mask in two colours.
 pub(super) fn mask_image(mask: &Mask, set: Colour, unset: Colour) -> Item {
-    raster(mask.width, mask.height, mask.bits.iter().map(|b| rgba(if *b { set } else { unset })))
+    raster(mask.map(|b| rgba(if *b { set } else { unset })))
 }
 
 /// A photo where a mask is set, paper elsewhere.
 pub(super) fn cut_out(photo: &Photo, mask: &Mask) -> Item {
-    let pixels = photo.pixels().iter().zip(&mask.bits);
-    raster(mask.width, mask.height, pixels.map(|(p, set)| if *set { [p[0], p[1], p[2], 255] } else { rgba(LIGHT) }))
+    raster(photo.with(mask, |p, set| if *set { [p[0], p[1], p[2], 255] } else { rgba(LIGHT) }))
 }
 
 /// A plane in greys, 0 to 255 by `grey`.
 pub(super) fn plane_image(plane: &Plane, grey: impl Fn(f32) -> f32) -> Item {
     let level = |v: f32| grey(v).clamp(0.0, 255.0) as u8;
-    raster(plane.width, plane.height, plane.values.iter().map(|v| [level(*v), level(*v), level(*v), 255]))
+    raster(plane.map(|v| [level(*v), level(*v), level(*v), 255]))
 }
 
 /// Hue as its nearness to the face's: orange on the hue itself, blue opposite, pale between.
@@ -54,17 +53,15 @@ pub(super) fn hue_image(hsi: &Hsi, mean: f32) -> Item {
         let channel = |k: usize| (a[k] + (b[k] - a[k]) * t) as u8;
         [channel(0), channel(1), channel(2), 255]
     };
-    raster(hsi.hue.width, hsi.hue.height, hsi.hue.values.iter().map(pixel))
+    raster(hsi.hue.map(pixel))
 }
 
 /// Single pixels within a box, in one colour.
 pub(super) fn pixels_image(pixels: &[(usize, usize)], within: &Bounds, colour: Colour) -> Item {
-    let (width, height) = (within.width(), within.height());
-    let mut bytes = vec![0_u8; width * height * 4];
+    let mut picture = Picture::filled(within.width(), within.height(), [0; 4]);
     for (x, y) in pixels.iter().filter(|(x, y)| within.holds(*x, *y)) {
-        let at = ((y - within.y0) * width + x - within.x0) * 4;
-        bytes[at..at + 4].copy_from_slice(&rgba(colour));
+        picture[(x - within.x0, y - within.y0)] = rgba(colour);
     }
     let place = Affine::translate((within.x0 as f64, within.y0 as f64));
-    Item::Picture(Raster::new("", width, height, bytes).placed(place))
+    Item::Picture(Raster::new("", picture).placed(place))
 }

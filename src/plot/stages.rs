@@ -115,7 +115,7 @@ fn after_eyes(stages: &Stages, located: &Located, all: Rect) -> Vec<(String, Dra
     }));
 
     let edges = &located.edges;
-    let largest = edges.sobel.values.iter().copied().fold(1e-6, f32::max);
+    let largest = edges.sobel.pixels().iter().copied().fold(1e-6, f32::max);
     // The square root shows weak edges too.
     let sobel = plane_image(&edges.mirrored, |v| 255.0 - 255.0 * (v / largest).sqrt());
     let mut binary = vec![mask_image(&edges.binary, INK, LIGHT), outline(square, 1.5 * unit, CHOSEN)];

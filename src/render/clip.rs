@@ -20,9 +20,9 @@ use super::print::{ByPrint, Print};
 use super::recent::Recent;
 use super::tiles::TILE;
 use super::tokens::{Counts, Table};
-use super::{Painter, Picture, encode_png};
+use super::{Painter, encode_png};
 use crate::disk::Result;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Picture};
 
 /// Bytes of pieces, and of whole bands, that are kept.
 const PIECES: usize = 16 << 20;

@@ -129,8 +129,9 @@ fn put(item: &Item, print: &mut Print) {
         Item::Picture(raster) => {
             print.word(7 << 32);
             print.numbers(&raster.place().as_coeffs());
-            print.word((raster.width() as u64) << 32 | raster.height() as u64);
-            for eight in raster.rgba().chunks(8) {
+            let picture = raster.picture();
+            print.word((picture.width() as u64) << 32 | picture.height() as u64);
+            for eight in picture.pixels().as_flattened().chunks(8) {
                 print.word(eight.iter().fold(0, |word, byte| word << 8 | u64::from(*byte)));
             }
         }

@@ -26,7 +26,7 @@ mod tokens;
 pub use clip::{ClipCoder, FrameCoder, Painted};
 pub use escaped::Escaped;
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
-pub use pixels::{Painter, Picture};
+pub use pixels::Painter;
 pub use png::{decode_key, encode_png};
 pub use reel::Reel;
 pub use svg::to_svg;

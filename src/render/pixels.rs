@@ -10,31 +10,8 @@ use super::print::{ByPrint, Print};
 use super::tiles::Grid;
 use super::{FontFile, MAX_SIDE};
 use crate::disk::{Fault, Result};
-use crate::drawing::{Drawing, Item, Layer, fit};
+use crate::drawing::{Drawing, Item, Layer, Picture, fit};
 use crate::geometry::{Affine, Rect};
-
-/// Pixels, row by row from the top: straight sRGB with alpha, 8 bits each, in the order red, green, blue, alpha.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picture {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// `width × height × 4` bytes.
-    pub rgba: Vec<u8>,
-}
-
-impl Picture {
-    /// The four channels of one pixel; `None` outside.
-    #[must_use]
-    pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 4]> {
-        if x >= self.width || y >= self.height {
-            return None;
-        }
-        let start = (y as usize * self.width as usize + x as usize) * 4;
-        self.rgba.get(start..start + 4).and_then(|p| p.try_into().ok())
-    }
-}
 
 /// Paints drawings of one size. Keeps its pixels from one drawing to the next.
 pub struct Painter {
@@ -134,19 +111,16 @@ impl Painter {
 
     /// A picture of this size without colour.
     pub(super) fn empty(&self) -> Picture {
-        let rgba = vec![0; self.width as usize * self.height as usize * 4];
-        Picture { width: self.width, height: self.height, rgba }
+        Picture::filled(self.width as usize, self.height as usize, [0; 4])
     }
 
     /// Copies some pixels to a picture of this size, as they are now.
     pub(super) fn hand_out(&self, picture: &mut Picture, part: Area, opaque: bool) {
-        let stride = self.width as usize * 4;
         for y in part.y0..part.y1 {
-            let row = &mut picture.rgba[y as usize * stride..][..stride];
-            let row = &mut row[part.x0 as usize * 4..part.x1 as usize * 4];
-            for (bytes, pixel) in row.chunks_exact_mut(4).zip(self.whole.canvas.row(y, part.x0, part.x1)) {
+            let row = &mut picture.row_mut(y as usize)[part.x0 as usize..part.x1 as usize];
+            for (out, pixel) in row.iter_mut().zip(self.whole.canvas.row(y, part.x0, part.x1)) {
                 let pixel = if opaque { *pixel } else { straight(*pixel) };
-                bytes.copy_from_slice(&pixel.to_le_bytes());
+                *out = pixel.to_le_bytes();
             }
         }
     }
@@ -314,6 +288,6 @@ mod tests {
         let mut painter = Painter::new(200, 136).unwrap();
         let _ = painter.paint(&shapes(&[vec![(0, 0), (25, 0), (25, 17), (0, 17)]]));
         let lower = painter.paint(&shapes(&[vec![(0, 9), (25, 9), (25, 17), (0, 17)]]));
-        assert_eq!((lower.pixel(100, 71), lower.pixel(100, 72)), (Some([255; 4]), Some([0, 0, 0, 255])));
+        assert_eq!((lower[(100, 71)], lower[(100, 72)]), ([255; 4], [0, 0, 0, 255]));
     }
 }

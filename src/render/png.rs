@@ -1,7 +1,7 @@
 //! Pixels as PNG, with a key that says what they show, so that an interrupted export can tell what is done.
 
-use super::Picture;
 use crate::disk::{Fault, Result};
+use crate::drawing::Picture;
 
 /// The keyword of the text chunk that carries the key.
 const KEYWORD: &[u8] = b"lianpu";
@@ -32,7 +32,8 @@ pub(super) fn text_chunk(file: &mut Vec<u8>, key: &str) {
 pub fn encode_png(picture: &Picture, key: &str) -> Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(64 << 10);
     let encoded = (|| {
-        let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
+        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let mut encoder = png::Encoder::new(&mut bytes, side(picture.width()), side(picture.height()));
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Fast);
@@ -42,7 +43,7 @@ pub fn encode_png(picture: &Picture, key: &str) -> Result<Vec<u8>> {
             encoder.add_text_chunk(String::from_utf8_lossy(KEYWORD).into_owned(), key.to_owned())?;
         }
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&picture.rgba)?;
+        writer.write_image_data(picture.pixels().as_flattened())?;
         writer.finish()
     })();
     encoded.map_err(|e| Fault::new(format!("the picture cannot be written as PNG: {e}")))?;
@@ -81,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_key_is_read_back_and_a_damaged_file_has_none() {
-        let picture = Picture { width: 3, height: 2, rgba: (0..24).collect() };
+        let picture = Picture::new(3, 2, (0..6).map(|i| [i, i + 6, i + 12, i + 18]).collect());
         let file = encode_png(&picture, "abc").unwrap();
         assert_eq!(decode_key(&file).as_deref(), Some("abc"));
         for cut in 0..file.len() {

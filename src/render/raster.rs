@@ -1,7 +1,7 @@
 //! Pictures of pixels inside drawings: painted with as many pixels as can be seen, or carried whole as a PNG.
 
 use super::canvas::Pixel;
-use crate::drawing::Raster;
+use crate::drawing::{Image, Picture, Raster};
 use crate::geometry::{Affine, Point};
 
 /// Weights between pixels are told in so many parts.
@@ -9,9 +9,7 @@ const PARTS: f64 = 256.0;
 
 /// The pixels of a raster, as many as can be seen, to be looked up from pixels of the picture.
 pub(super) struct Sampler {
-    pixels: Vec<Pixel>,
-    width: usize,
-    height: usize,
+    pixels: Image<Pixel>,
     /// From the picture to the middles of `pixels`.
     back: Affine,
 }
@@ -26,12 +24,12 @@ impl Sampler {
         }
         let [a, b, c, d, _, _] = place.as_coeffs();
         let blocks = |scale: f64, side: usize| ((1.0 / scale.max(1e-6)) as usize).clamp(1, side);
-        let (across, down) = (blocks(a.hypot(b), raster.width()), blocks(c.hypot(d), raster.height()));
-        let pixels = averaged(raster, across, down);
+        let picture = raster.picture();
+        let (across, down) = (blocks(a.hypot(b), picture.width()), blocks(c.hypot(d), picture.height()));
+        let pixels = averaged(picture, across, down);
         // Blocks at the border may be cut, but all have one size in the plane.
         let back = (place * Affine::scale_non_uniform(across as f64, down as f64)).inverse();
-        let (width, height) = (raster.width().div_ceil(across), raster.height().div_ceil(down));
-        Some(Self { pixels, width, height, back: Affine::translate((-0.5, -0.5)) * back })
+        Some(Self { pixels, back: Affine::translate((-0.5, -0.5)) * back })
     }
 
     /// What is seen at the middle of a pixel of the picture: between the four pixels round it, in proportion; the
@@ -43,8 +41,8 @@ impl Sampler {
             let (whole, part) = (v / PARTS as usize, v % PARTS as usize);
             (whole, (whole + 1).min(side - 1), part as u32)
         };
-        let ((x0, x1, right), (y0, y1, below)) = (split(p.x, self.width), split(p.y, self.height));
-        let at = |x: usize, y: usize| self.pixels[y * self.width + x].to_le_bytes();
+        let ((x0, x1, right), (y0, y1, below)) = (split(p.x, self.pixels.width()), split(p.y, self.pixels.height()));
+        let at = |x: usize, y: usize| self.pixels[(x, y)].to_le_bytes();
         let [a, b, c, d] = [at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)];
         let (left, above) = (256 - right, 256 - below);
         u32::from_le_bytes(std::array::from_fn(|k| {
@@ -54,16 +52,16 @@ impl Sampler {
     }
 }
 
-/// The raster with `across` × `down` of its pixels averaged to one, premultiplied.
-fn averaged(raster: &Raster, across: usize, down: usize) -> Vec<Pixel> {
-    let (width, height) = (raster.width().div_ceil(across), raster.height().div_ceil(down));
+/// The picture with `across` × `down` of its pixels averaged to one, premultiplied.
+fn averaged(picture: &Picture, across: usize, down: usize) -> Image<Pixel> {
+    let (width, height) = (picture.width().div_ceil(across), picture.height().div_ceil(down));
     let mut pixels = Vec::with_capacity(width * height);
-    for rows in raster.rgba().chunks(raster.width() * 4 * down) {
+    for rows in picture.pixels().chunks(picture.width() * down) {
         let mut sums = vec![[0_u64; 4]; width];
-        let rows_here = rows.len() / (raster.width() * 4);
-        for row in rows.chunks_exact(raster.width() * 4) {
-            for (sum, block) in sums.iter_mut().zip(row.chunks(4 * across)) {
-                for p in block.chunks_exact(4) {
+        let rows_here = rows.len() / picture.width();
+        for row in rows.chunks_exact(picture.width()) {
+            for (sum, block) in sums.iter_mut().zip(row.chunks(across)) {
+                for p in block {
                     let alpha = u64::from(p[3]);
                     (0..3).for_each(|k| sum[k] += u64::from(p[k]) * alpha);
                     sum[3] += alpha;
@@ -71,29 +69,30 @@ fn averaged(raster: &Raster, across: usize, down: usize) -> Vec<Pixel> {
             }
         }
         for (x, sum) in sums.iter().enumerate() {
-            let count = (rows_here * across.min(raster.width() - x * across)) as u64;
+            let count = (rows_here * across.min(picture.width() - x * across)) as u64;
             let alpha = ((sum[3] + count / 2) / count).min(255) as u8;
             let channel = |k: usize| (((2 * sum[k] + count * 255) / (2 * count * 255)).min(255) as u8).min(alpha);
             pixels.push(u32::from_le_bytes([channel(0), channel(1), channel(2), alpha]));
         }
     }
-    pixels
+    Image::new(width, height, pixels)
 }
 
 /// The raster as a `data:` address of a PNG; RGB where it is opaque, which is a third smaller.
 pub(super) fn data_uri(raster: &Raster) -> String {
-    let opaque = raster.rgba().chunks_exact(4).all(|p| p[3] == 255);
+    let picture = raster.picture();
+    let opaque = picture.pixels().iter().all(|p| p[3] == 255);
     let rgb: Vec<u8>;
     let (kind, data) = if opaque {
-        rgb = raster.rgba().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+        rgb = picture.pixels().iter().flat_map(|p| [p[0], p[1], p[2]]).collect();
         (png::ColorType::Rgb, &rgb[..])
     } else {
-        (png::ColorType::Rgba, raster.rgba())
+        (png::ColorType::Rgba, picture.pixels().as_flattened())
     };
     let mut bytes = Vec::with_capacity(64 << 10);
     let encoded = (|| {
         let size = |v: usize| u32::try_from(v).unwrap_or(u32::MAX);
-        let mut encoder = png::Encoder::new(&mut bytes, size(raster.width()), size(raster.height()));
+        let mut encoder = png::Encoder::new(&mut bytes, size(picture.width()), size(picture.height()));
         encoder.set_color(kind);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Balanced);
@@ -141,7 +140,7 @@ mod tests {
 
     fn stripes(side: usize) -> Raster {
         let pixel = |i: usize| if (i % side).is_multiple_of(2) { [0, 0, 0, 255] } else { [255, 255, 255, 255] };
-        Raster::new("photo", side, side, (0..side * side).flat_map(pixel).collect::<Vec<u8>>())
+        Raster::new("photo", Picture::new(side, side, (0..side * side).map(pixel).collect()))
     }
 
     #[test]
@@ -156,10 +155,10 @@ mod tests {
             painter.paint(&shown(stripes(32).placed_in(Rect::new(0.0, 0.0, side, side)), side))
         };
         let whole = at(&mut Painter::new(32, 32).unwrap(), 32.0);
-        assert_eq!(whole.rgba, stripes(32).rgba());
+        assert_eq!(&whole, stripes(32).picture());
         for side in [16_u32, 8, 4] {
             let small = at(&mut Painter::new(side, side).unwrap(), f64::from(side));
-            let wrong = small.rgba.chunks_exact(4).filter(|p| p[0].abs_diff(128) > 1 || p[3] != 255).count();
+            let wrong = small.pixels().iter().filter(|p| p[0].abs_diff(128) > 1 || p[3] != 255).count();
             assert_eq!(wrong, 0, "{side}");
         }
     }
@@ -167,19 +166,18 @@ mod tests {
     #[test]
     fn what_is_transparent_does_not_colour_what_is_averaged() {
         let pixel = |i: usize| if i.is_multiple_of(2) { [255, 0, 0, 255] } else { [0, 255, 0, 0] };
-        let raster = Raster::new("", 8, 8, (0..64).flat_map(pixel).collect::<Vec<u8>>());
-        let small = averaged(&raster, 2, 2);
+        let small = averaged(&Picture::new(8, 8, (0..64).map(pixel).collect()), 2, 2);
         let mean = |p: &Pixel| matches!(p.to_le_bytes(), [r, 0, _, a] if r.abs_diff(128) <= 1 && r == a);
-        assert!(small.iter().all(mean));
+        assert!(small.pixels().iter().all(mean));
     }
 
     #[test]
     fn a_turned_raster_is_painted_where_its_corners_are() {
-        let red = Raster::new("", 4, 4, [255, 0, 0, 255].repeat(16));
+        let red = Raster::new("", Picture::filled(4, 4, [255, 0, 0, 255]));
         let place = Affine::translate((20.0, 4.0)) * Affine::rotate(std::f64::consts::FRAC_PI_2) * Affine::scale(2.0);
         let picture = Painter::new(32, 32).unwrap().paint(&shown(red.placed(place), 32.0));
-        assert_eq!(picture.pixel(15, 8), Some([255, 0, 0, 255]));
-        assert_eq!(picture.pixel(25, 8), Some([255; 4]));
+        assert_eq!(picture[(15, 8)], [255, 0, 0, 255]);
+        assert_eq!(picture[(25, 8)], [255; 4]);
     }
 
     #[test]
@@ -198,18 +196,18 @@ mod tests {
             })
             .collect();
         let decoded = image::load_from_memory(&bytes).unwrap().into_rgba8();
-        assert_eq!(decoded.as_raw(), raster.rgba());
+        assert_eq!(decoded.as_raw(), raster.picture().pixels().as_flattened());
         assert!(svg.contains("transform=\"matrix(2 0 0 2 10 10)\""));
     }
 
     #[test]
     fn another_pixel_or_another_place_is_another_fingerprint() {
         let first = shown(stripes(6), 32.0);
-        let mut pixels = stripes(6).rgba().to_vec();
-        pixels[77] ^= 1;
+        let mut other = stripes(6).picture().clone();
+        other[(1, 3)][1] ^= 1;
         let print = first.fingerprint();
         assert_eq!(print, shown(stripes(6), 32.0).fingerprint());
-        assert_ne!(print, shown(Raster::new("photo", 6, 6, pixels), 32.0).fingerprint());
+        assert_ne!(print, shown(Raster::new("photo", other), 32.0).fingerprint());
         assert_ne!(print, shown(stripes(6).placed(Affine::translate((0.1, 0.0))), 32.0).fingerprint());
     }
 }

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
+use super::Painter;
 use super::canvas::Area;
-use super::{Painter, Picture};
 use crate::disk::Result;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Picture};
 
 /// Paints drawings of one size into one picture.
 pub struct Reel {
@@ -32,7 +32,7 @@ impl Reel {
         let plan = self.painter.plan(drawing);
         let painted = self.painter.refresh(&plan, |_| true);
         let opaque = plan.is_opaque();
-        let all = Area::of_size(self.picture.width, self.picture.height);
+        let all = self.painter.canvas().area();
         let changed = if self.opaque == Some(opaque) { painted } else { vec![all] };
         self.opaque = Some(opaque);
         changed.iter().for_each(|part| self.painter.hand_out(&mut self.picture, *part, opaque));
@@ -80,8 +80,8 @@ mod tests {
                 prop_assert!(reel.picture() == &Painter::new(200, 136).unwrap().paint(&drawing));
                 if let Some(before) = &before {
                     for (x, y) in (0..136).flat_map(|y| (0..200).map(move |x| (x, y))) {
-                        let inside = columns.contains(&x) && rows.contains(&y);
-                        prop_assert!(inside || before.pixel(x, y) == reel.picture().pixel(x, y));
+                        let inside = columns.contains(&(x as u32)) && rows.contains(&(y as u32));
+                        prop_assert!(inside || before[(x, y)] == reel.picture()[(x, y)]);
                     }
                 }
                 before = Some(reel.picture().clone());

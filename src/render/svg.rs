@@ -138,8 +138,8 @@ fn write_item(out: &mut String, item: &Item, names: &mut Names) {
             let _ = writeln!(
                 out,
                 "<image{id} width=\"{}\" height=\"{}\"{} href=\"{}\"/>",
-                raster.width(),
-                raster.height(),
+                raster.picture().width(),
+                raster.picture().height(),
                 transform(raster.place()),
                 super::raster::data_uri(raster)
             );

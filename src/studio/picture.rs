@@ -6,10 +6,10 @@ use ratatui::style::Style;
 
 use super::look::Colours;
 use super::photo_picture;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Picture};
 use crate::figure::Figure;
 use crate::pose::Pose;
-use crate::render::{Painter, Picture};
+use crate::render::Painter;
 
 /// Paint this many pixels each way for one that is shown.
 const FINER: u32 = 4;
@@ -175,7 +175,7 @@ fn cell(picture: &Picture, x: u32, y: u32, contrast: f32, colours: Colours) -> C
 fn mean(picture: &Picture, x: u32, y: u32, wide: u32, high: u32) -> [u32; 3] {
     let mut sum = [0; 3];
     for (dx, dy) in (0..high).flat_map(|dy| (0..wide).map(move |dx| (dx, dy))) {
-        let pixel = picture.pixel(x + dx, y + dy).unwrap_or([255; 4]);
+        let pixel = picture.get((x + dx) as usize, (y + dy) as usize).copied().unwrap_or([255; 4]);
         for (sum, v) in sum.iter_mut().zip(pixel) {
             *sum += u32::from(v);
         }

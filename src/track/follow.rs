@@ -1,9 +1,9 @@
 //! A face followed from frame to frame: found again where it is lost, and never taken for found where it is not.
 
-use crate::aam::{Fit, Fitter, Grey, Model, Similarity, Start};
+use crate::aam::{Fit, Fitter, Grey, Model, Start};
 use crate::emotion::Calibration;
 use crate::face::find::{Found, find};
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// Follows one face: that of a calibration, by its model.
 #[derive(Debug, Clone)]

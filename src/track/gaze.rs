@@ -67,11 +67,10 @@ fn sample(grey: &Grey, at: Point) -> Option<f64> {
     if !(at.x >= 0.0 && at.y >= 0.0 && at.x < w as f64 - 1.0 && at.y < h as f64 - 1.0) {
         return None;
     }
-    let (x, y) = (at.x as usize, at.y as usize);
-    let (fx, fy) = (at.x - x as f64, at.y - y as f64);
-    let p = |x: usize, y: usize| f64::from(grey.pixels()[y * w + x]);
-    let row = |y: usize| p(x, y) + (p(x + 1, y) - p(x, y)) * fx;
-    Some(row(y) + (row(y + 1) - row(y)) * fy)
+    let (four, [fx, fy]) = grey.around(at.x, at.y);
+    let [a, b, c, d] = four.map(|p| f64::from(*p));
+    let (above, below) = (a + (b - a) * fx, c + (d - c) * fx);
+    Some(above + (below - above) * fy)
 }
 
 #[cfg(test)]

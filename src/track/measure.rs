@@ -1,10 +1,9 @@
 //! What a shape says beside the ratios: head, lids, mouth, and where the openings of the eyes are.
 
-use crate::aam::Similarity;
 use crate::disk::{Fault, Result};
 use crate::emotion::{Calibration, MouthMoves};
 use crate::face::FeaturePoint as P;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// What does not move with the expression: the corners of the eyes and the nose. They say where the head is.
 const STEADY: [P; 9] = [P::P3_12, P::P3_8, P::P3_11, P::P3_7, P::P9_6, P::P9_7, P::P9_4, P::P9_5, P::P9_15];
@@ -110,7 +109,7 @@ impl<'c> Neutral<'c> {
         Some(Measures {
             place: head.apply(Point::ORIGIN),
             pupils: head.scale(),
-            roll: head.turn().to_degrees(),
+            roll: head.angle().to_degrees(),
             yaw: self.yaw(&eyes, at(P::P9_15)?),
             open,
             mouth,

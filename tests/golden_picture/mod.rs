@@ -4,9 +4,9 @@
 
 use std::path::PathBuf;
 
-use lianpu::drawing::{Colour, Drawing, Layer};
+use lianpu::drawing::{Colour, Drawing, Layer, Picture};
 use lianpu::geometry::Rect;
-use lianpu::render::{Painter, Picture, encode_png, to_svg};
+use lianpu::render::{Painter, encode_png, to_svg};
 
 /// A channel may differ by so much: rounding of another mathematics library.
 const CHANNEL: u8 = 24;
@@ -22,23 +22,23 @@ fn decode(bytes: &[u8]) -> Picture {
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
     let mut rgba = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut rgba).unwrap();
-    Picture { width: info.width, height: info.height, rgba }
+    Picture::new(info.width as usize, info.height as usize, rgba.as_chunks::<4>().0.to_vec())
 }
 
 fn differing(a: &Picture, b: &Picture) -> usize {
-    let pairs = a.rgba.chunks_exact(4).zip(b.rgba.chunks_exact(4));
+    let pairs = a.pixels().iter().zip(b.pixels());
     pairs.filter(|(x, y)| x.iter().zip(*y).any(|(p, q)| p.abs_diff(*q) > CHANNEL)).count()
 }
 
 fn three_panels(expected: &Picture, found: &Picture) -> Picture {
-    let (w, h) = (found.width, found.height);
-    let mut rgba = Vec::new();
+    let (w, h) = (found.width(), found.height());
+    let mut pixels = Vec::new();
     for y in 0..h {
         for panel in 0..3 {
             for x in 0..w {
-                let (a, b) = (expected.pixel(x, y).unwrap_or([0; 4]), found.pixel(x, y).unwrap_or([0; 4]));
+                let (a, b) = (expected.get(x, y).copied().unwrap_or([0; 4]), found[(x, y)]);
                 let apart = a.iter().zip(b).any(|(p, q)| p.abs_diff(q) > CHANNEL);
-                rgba.extend(match panel {
+                pixels.push(match panel {
                     0 => a,
                     1 => b,
                     _ if apart => [255, 0, 0, 255],
@@ -47,7 +47,7 @@ fn three_panels(expected: &Picture, found: &Picture) -> Picture {
             }
         }
     }
-    Picture { width: 3 * w, height: h, rgba }
+    Picture::new(3 * w, h, pixels)
 }
 
 /// Holds a drawing against the picture kept under a name.
@@ -61,7 +61,7 @@ pub fn hold(name: &str, drawing: &Drawing) {
         return;
     }
     let expected = decode(&std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())));
-    assert_eq!((expected.width, expected.height), (width, height), "{name}");
+    assert_eq!((expected.width(), expected.height()), (width as usize, height as usize), "{name}");
     let apart = differing(&expected, &found);
     if apart > PIXELS {
         let panels = std::env::temp_dir().join(format!("lianpu-{name}-difference.png"));
@@ -95,6 +95,6 @@ pub fn same_as_resvg(what: &str, drawing: &Drawing, strong: usize) {
     let tree = usvg::Tree::from_str(&to_svg(drawing, 640, 360), &usvg::Options::default());
     let mut canvas = tiny_skia::Pixmap::new(640, 360).unwrap();
     resvg::render(&tree.unwrap(), tiny_skia::Transform::identity(), &mut canvas.as_mut());
-    let apart = ours.rgba.iter().zip(canvas.data()).filter(|(a, b)| a.abs_diff(**b) > 96).count();
+    let apart = ours.pixels().as_flattened().iter().zip(canvas.data()).filter(|(a, b)| a.abs_diff(**b) > 96).count();
     assert!(apart < strong, "{what}: {apart} channels apart");
 }

@@ -19,8 +19,8 @@ mod windows;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::face::find::{self, Fit, Frame, Model, Pyramid, WORKING_SIDE};
-use lianpu::geometry::Point;
+use lianpu::face::find::{self, Fit, Model, Pyramid, WORKING_SIDE};
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::{Photo, Plane};
 
 use chance::Chance;
@@ -41,7 +41,7 @@ fn main() {
         let mut sheet = image::RgbImage::new(600 * 6, 600 * 3);
         for (i, shot) in neutral.iter().step_by(8).take(18).enumerate() {
             let plane = photos::elsewhere(&shot.photo, &mut Chance(i as u64));
-            for (x, y, p) in (0..360_000).map(|k| (k % 600, k / 600, plane.values[k])) {
+            for (x, y, p) in (0..360_000).map(|k| (k % 600, k / 600, plane.pixels()[k])) {
                 sheet.put_pixel((i % 6 * 600 + x) as u32, (i / 6 * 600 + y) as u32, image::Rgb([p as u8; 3]));
             }
         }
@@ -224,8 +224,7 @@ fn check(model: &Model, data: &Path, neutral: &[Shot], scheme: &Scheme) {
             );
         }
     }
-    let photo_of =
-        |plane: &Plane| Photo::new(plane.width, plane.height, plane.values.iter().map(|v| [*v as u8; 3]).collect());
+    let photo_of = |plane: &Plane| plane.map(|v| [*v as u8; 3]);
     let own: Vec<&Shot> = neutral.iter().filter(|s| !s.mirrored).collect();
     let drawn: Vec<Photo> =
         (0..180).map(|i| photo_of(&others::drawn(i, 500, &mut Chance(i as u64 + 777_000)))).collect();
@@ -239,7 +238,7 @@ fn check(model: &Model, data: &Path, neutral: &[Shot], scheme: &Scheme) {
             .iter()
             .step_by(2)
             .map(|s| {
-                let eyes = Frame::of_pupils(s.truth[12], s.truth[17]);
+                let eyes = Similarity::spanning(s.truth[12], s.truth[17]);
                 others::turned(&s.photo, &eyes, f64::from(degrees).to_radians(), &[]).0
             })
             .collect();
@@ -252,9 +251,9 @@ fn check(model: &Model, data: &Path, neutral: &[Shot], scheme: &Scheme) {
             .iter()
             .step_by(2)
             .map(|s| {
-                let turn = Frame::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
+                let turn = Similarity::new(Point::new(300.0, 300.0), 1.0, -f64::from(degrees).to_radians());
                 let corner = turn.apply(Point::new(-300.0, -300.0));
-                photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Frame { origin: corner, ..turn }, 600, 600))
+                photo_of(&Pyramid::of(&s.photo, 1.0).crop(&Similarity { origin: corner, ..turn }, 600, 600))
             })
             .collect();
         said(&format!("tilted by {degrees}"), &seen);

@@ -8,12 +8,12 @@ use super::quality::Quality;
 use super::settle::Settling;
 use super::spread::Spread;
 use super::{Calibration, Shape, Source};
-use crate::aam::{Grey, Model, Similarity};
+use crate::aam::{Grey, Model};
 use crate::disk::{Fault, Result};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{FeaturePoint as P, How, Part, Placed};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 use crate::pose::Emotion;
 
 /// What calibrating gives.
@@ -52,7 +52,7 @@ impl Ground {
         if across.hypot().is_nan() || across.hypot() <= 1.0 {
             return Err(Fault::new("the pupils of the neutral photo coincide").help("set 3.6 and 3.5 anew"));
         }
-        let frame = Similarity { a: across.x, b: across.y, at: left.midpoint(right) };
+        let frame = Similarity::spanning(left, right);
         let named: Vec<(P, Point)> = inputs.named.iter().map(|(p, at)| (*p, frame.undo(*at))).collect();
         let first = inputs.shots[0].as_ref().ok_or_else(|| Fault::new("there is no neutral shot"))?;
         let points: Vec<Point> = first.points.iter().map(|p| frame.undo(p.at)).collect();
@@ -197,8 +197,8 @@ fn found<'a>(
             // Shots of one person are taken from one place: the face may be where it was in the neutral one.
             let share = shot.grey.width() as f64 / neutral.grey.width().max(1) as f64;
             let f = ground.frame;
-            let at = (f.at.to_vec2() * share).to_point();
-            let place = Similarity { a: f.a * share, b: f.b * share, at };
+            let origin = (f.origin.to_vec2() * share).to_point();
+            let place = Similarity { a: f.a * share, b: f.b * share, origin };
             let seen = Seen {
                 place,
                 moves: vec![Vec2::ZERO; ground.named.len()],

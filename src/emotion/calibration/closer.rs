@@ -2,10 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::finding::joined;
 use super::patches::{Patches, Sight, View, sights};
-use crate::aam::Similarity;
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 
 /// How a model's points may move: ways of the rig, and bumps as flesh makes them.
 #[derive(Debug, Clone)]
@@ -134,9 +132,9 @@ impl Flesh {
         let q = Similarity {
             a: 1.0 + LOOSE * along[k],
             b: LOOSE * along[k + 1],
-            at: Point::new(LOOSE * along[k + 2], LOOSE * along[k + 3]),
+            origin: Point::new(LOOSE * along[k + 2], LOOSE * along[k + 3]),
         };
         let like = seen.iter().map(|s| s.like).sum::<f64>() / n.max(1) as f64;
-        Some(Laid { place: joined(&laid.place, &q), points, errors, like })
+        Some(Laid { place: laid.place.after(&q), points, errors, like })
     }
 }

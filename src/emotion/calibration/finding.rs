@@ -4,10 +4,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::moves::Moves;
-use crate::aam::{Grey, Similarity};
+use crate::aam::Grey;
 use crate::face::find::{Found, find};
 use crate::face::{FeaturePoint as P, How, Part};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 
 /// Named points of a shot.
 #[derive(Debug, Clone)]
@@ -121,17 +121,12 @@ impl Seeing {
             let q = Similarity {
                 a: 1.0 + l * along[ways],
                 b: l * along[ways + 1],
-                at: Point::new(l * along[ways + 2], l * along[ways + 3]),
+                origin: Point::new(l * along[ways + 2], l * along[ways + 3]),
             };
-            place = joined(&place, &q);
+            place = place.after(&q);
         }
         Some(Seen { place, moves, errors: doubts, turned: found.yaw - self.yaw })
     }
-}
-
-/// First `q`, then `place`.
-pub(super) fn joined(place: &Similarity, q: &Similarity) -> Similarity {
-    Similarity { a: place.a * q.a - place.b * q.b, b: place.a * q.b + place.b * q.a, at: place.apply(q.at) }
 }
 
 /// Points that expressions move least.

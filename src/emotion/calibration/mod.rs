@@ -27,10 +27,9 @@ pub use marks::Marks;
 pub use quality::{Quality, Retake, ShotQuality};
 
 use super::{Binding, Choice, Decomposition, Reading};
-use crate::aam::Similarity;
 use crate::disk::{Fault, Result};
 use crate::face::FeaturePoint as P;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// How the shape of an emotion came to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +80,7 @@ impl Calibration {
         if across.hypot() < 1e-6 {
             return Err(Fault::new("the pupils of the neutral shape coincide"));
         }
-        let frame = Similarity { a: across.x, b: across.y, at: left.midpoint(right) };
+        let frame = Similarity::spanning(left, right);
         let first: Vec<Point> = neutral.iter().map(|p| frame.undo(*p)).collect();
         let mut laid: [Vec<Point>; 7] = Default::default();
         for (to, shape) in laid.iter_mut().zip(&shapes) {

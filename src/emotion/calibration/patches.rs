@@ -1,7 +1,7 @@
 //! What a person's face looks like round each point, and where that is seen in another shot.
 
-use crate::aam::{Grey, Similarity};
-use crate::geometry::{Point, Vec2};
+use crate::aam::Grey;
+use crate::geometry::{Point, Similarity, Vec2};
 
 /// Half a patch, in samples.
 const HALF: isize = 7;
@@ -27,7 +27,7 @@ impl View {
     pub fn of(grey: &Grey, pupils: f64) -> Self {
         let mut view = Self { grey: grey.clone(), step: 1.0 };
         while pupils / view.step > 1.5 * FINE && view.grey.width().min(view.grey.height()) > 16 {
-            view = Self { grey: halved(&view.grey), step: 2.0 * view.step };
+            view = Self { grey: view.grey.halved(), step: 2.0 * view.step };
         }
         view
     }
@@ -49,18 +49,6 @@ impl View {
         let p = Point::new((at.x + 0.5) / self.step - 0.5, (at.y + 0.5) / self.step - 0.5);
         super::warped::between(&self.grey, p)
     }
-}
-
-/// A picture of half the size.
-fn halved(grey: &Grey) -> Grey {
-    let (w, h) = (grey.width() / 2, grey.height() / 2);
-    let p = grey.pixels();
-    let sum = |x: usize, y: usize| {
-        let at = 2 * y * grey.width() + 2 * x;
-        [p[at], p[at + 1], p[at + grey.width()], p[at + grey.width() + 1]].map(u32::from).iter().sum::<u32>()
-    };
-    let pixels = (0..w * h).map(|i| ((sum(i % w, i / w) + 2) / 4) as u8).collect();
-    Grey::new(w, h, pixels)
 }
 
 /// What lies round each point of a shot: samples less their mean, of length 1.

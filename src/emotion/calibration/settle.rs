@@ -4,9 +4,8 @@ use super::calibrate::{Ground, Known};
 use super::closer::{Flesh, Laid};
 use super::patches::{Patches, View};
 use super::warped::bent;
-use crate::aam::Similarity;
 use crate::face::Part;
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 use crate::pose::{Emotion, MouthShape};
 
 /// How far round each point is looked, step by step, in pupil distances.

@@ -2,6 +2,7 @@
 
 use crate::aam::{Grey, triangles};
 use crate::geometry::{Point, Vec2};
+use crate::photo::Mask;
 
 /// A triangle that grows to more than so many times its size shows what was hidden: the inside of a mouth.
 const OPENED: f64 = 5.0;
@@ -33,8 +34,8 @@ pub(super) fn bent(grey: &Grey, from: &[Point], to: &[Point], scale: f64) -> (Gr
         }
     }
     let dark = INSIDE * brightness(grey, from);
-    let mut pixels = vec![0_u8; width * height];
-    let mut seen = vec![false; width * height];
+    let mut picture = Grey::filled(width, height, 0);
+    let mut seen = Mask::filled(width, height, false);
     for t in triangles(&new) {
         let [a, b, c] = t.map(|i| new[i]);
         let [oa, ob, oc] = t.map(|i| old[i]);
@@ -49,26 +50,26 @@ pub(super) fn bent(grey: &Grey, from: &[Point], to: &[Point], scale: f64) -> (Gr
             for x in range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width) {
                 let p = Point::new(x as f64, y as f64) - a;
                 let (u, v) = (p.cross(ac) / area, ab.cross(p) / area);
-                let at = y * width + x;
+                let at = (x, y);
                 if u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9 || seen[at] {
                     continue;
                 }
                 seen[at] = true;
                 let from = oa + (ob - oa) * u + (oc - oa) * v;
-                pixels[at] = if opened { dark } else { between(grey, from) }.round().clamp(0.0, 255.0) as u8;
+                picture[at] = if opened { dark } else { between(grey, from) }.round().clamp(0.0, 255.0) as u8;
             }
         }
     }
     for y in 0..height {
         for x in 0..width {
-            if !seen[y * width + x] {
+            if !seen[(x, y)] {
                 let at = low + Vec2::new(x as f64, y as f64) / scale;
-                pixels[y * width + x] = between(grey, at).round().clamp(0.0, 255.0) as u8;
+                picture[(x, y)] = between(grey, at).round().clamp(0.0, 255.0) as u8;
             }
         }
     }
     new.truncate(to.len());
-    (Grey::new(width, height, pixels), new)
+    (picture, new)
 }
 
 /// The mean of a picture at some points.
@@ -78,12 +79,7 @@ fn brightness(grey: &Grey, at: &[Point]) -> f64 {
 
 /// A picture between its pixels; its border goes on outside.
 pub(super) fn between(grey: &Grey, at: Point) -> f64 {
-    let (w, h) = (grey.width(), grey.height());
-    let x = at.x.clamp(0.0, w as f64 - 1.0);
-    let y = at.y.clamp(0.0, h as f64 - 1.0);
-    let (x0, y0) = (x.floor() as usize, y.floor() as usize);
-    let (x1, y1) = ((x0 + 1).min(w - 1), (y0 + 1).min(h - 1));
-    let (u, v) = (x - x0 as f64, y - y0 as f64);
-    let p = |x: usize, y: usize| f64::from(grey.pixels()[y * w + x]);
-    (p(x0, y0) * (1.0 - u) + p(x1, y0) * u) * (1.0 - v) + (p(x0, y1) * (1.0 - u) + p(x1, y1) * u) * v
+    let (four, [u, v]) = grey.around(at.x, at.y);
+    let [a, b, c, d] = four.map(|p| f64::from(*p));
+    (a * (1.0 - u) + b * u) * (1.0 - v) + (c * (1.0 - u) + d * u) * v
 }

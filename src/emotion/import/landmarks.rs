@@ -1,11 +1,10 @@
 //! From points of somebody else's tracker to ratios, through a person's calibration.
 
 use super::frame::{Seen, median, record};
-use crate::aam::Similarity;
 use crate::disk::{Fault, Result};
 use crate::emotion::{Binding, Calibration, Choice, Decomposition, Record};
 use crate::face::FeaturePoint;
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 use crate::pose::Ratios;
 
 /// Widths of pictures for a height of 1, for points in shares of a picture whose size is not said.

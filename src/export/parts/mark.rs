@@ -79,7 +79,7 @@ impl Eq for Pixels {}
 
 impl Hash for Pixels {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        (self.0.width(), self.0.height()).hash(state);
+        (self.0.picture().width(), self.0.picture().height()).hash(state);
     }
 }
 
@@ -185,7 +185,7 @@ impl Mark {
             Self::Path { path, .. } => 28 + path.weight(),
             Self::Glow { .. } => 70,
             Self::Text { text, .. } => 90 + text.len() as u64,
-            Self::Picture { pixels, .. } => 120 + pixels.0.rgba().len() as u64 / 2,
+            Self::Picture { pixels, .. } => 120 + 2 * pixels.0.picture().pixels().len() as u64,
             Self::Clip { path, inside } => 70 + path.weight() + inside.iter().map(Self::weight).sum::<u64>(),
         }
     }

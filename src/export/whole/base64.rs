@@ -1,7 +1,7 @@
 //! Bytes as text: base 64, and the `data:` addresses made of it.
 
 use crate::drawing::Raster;
-use crate::render::{Picture, encode_png};
+use crate::render::encode_png;
 
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -26,10 +26,8 @@ pub(super) fn data_uri(mime: &str, bytes: &[u8]) -> String {
 
 /// Pixels as a `data:` address of a PNG.
 pub(super) fn data_uri_of(raster: &Raster) -> String {
-    let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let picture = Picture { width: side(raster.width()), height: side(raster.height()), rgba: raster.rgba().to_vec() };
     // Pixels that are no picture cannot be drawn either.
-    encode_png(&picture, "").map(|png| data_uri("image/png", &png)).unwrap_or_default()
+    encode_png(raster.picture(), "").map(|png| data_uri("image/png", &png)).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -7,14 +7,14 @@ use sha2::{Digest, Sha256};
 
 use super::Written;
 use crate::disk::{Fault, Result, Setting, message};
-use crate::drawing::Colour;
+use crate::drawing::{Colour, Picture};
 use crate::export::apng::{self, ApngForm, Depth};
 use crate::export::gif::{self, GifForm};
 use crate::export::manifest::hex;
 use crate::export::movie::{self, Container, Film};
 use crate::export::{Format, Frames, Job, Ledger, Outcome, Watch, said};
 use crate::project::Clip;
-use crate::render::{Picture, REVISION, Reel};
+use crate::render::{REVISION, Reel};
 use crate::timing::{self, Tier, Timing};
 
 /// The frames of a job, painted as they are asked for.

@@ -100,8 +100,8 @@ pub(super) fn write_marks<'a>(out: &mut String, marks: impl Iterator<Item = &'a 
                 let _ = write!(
                     out,
                     "<image width=\"{}\" height=\"{}\" transform=\"matrix({a} {b} {c} {d} {e} {f})\" href=\"{}\"/>",
-                    pixels.0.width(),
-                    pixels.0.height(),
+                    pixels.0.picture().width(),
+                    pixels.0.picture().height(),
                     data_uri_of(&pixels.0)
                 );
             }

@@ -1,11 +1,11 @@
 //! From a rough place to all points: each stage looks round where the points now are and says how far to move them
 //! (supervised descent, Xiong and De la Torre 2013).
 
+use super::Pyramid;
 use super::channels::{Channels, DESCRIPTOR};
 use super::shape::ShapeModel;
 use super::weights::{Matrix, Reader, Writer};
-use super::{Frame, Pyramid};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 
 /// What a chip shows of the face frame: left, top, right, bottom, in pupil distances.
 const VIEW: [f64; 4] = [-1.55, -1.5, 1.55, 1.9];
@@ -24,15 +24,15 @@ pub struct Chip {
 impl Chip {
     /// The crop of a face that lies at `face` in the photo.
     #[must_use]
-    pub fn of(picture: &Pyramid, face: &Frame, scale: f64) -> Self {
+    pub fn of(picture: &Pyramid, face: &Similarity, scale: f64) -> Self {
         let edges = Channels::of(&Self::plane(picture, face, scale));
         Self { strength: edges.strength(), edges, scale }
     }
 
     /// The same crop in grey.
     #[must_use]
-    pub fn plane(picture: &Pyramid, face: &Frame, scale: f64) -> crate::photo::Plane {
-        let place = face.after(&Frame { a: 1.0 / scale, b: 0.0, origin: Point::new(VIEW[0], VIEW[1]) });
+    pub fn plane(picture: &Pyramid, face: &Similarity, scale: f64) -> crate::photo::Plane {
+        let place = face.after(&Similarity { a: 1.0 / scale, b: 0.0, origin: Point::new(VIEW[0], VIEW[1]) });
         let size = |from: f64, to: f64| ((to - from) * scale).round() as usize;
         picture.crop(&place, size(VIEW[0], VIEW[2]), size(VIEW[1], VIEW[3]))
     }

@@ -1,6 +1,7 @@
 //! What a picture looks like near a place, apart from its light: how much edge there is in each of eight
 //! directions, and the descriptor built of it (Lowe 2004's, sampled densely).
 
+use crate::drawing::Image;
 use crate::photo::Plane;
 
 /// Directions of an edge, 45° apart; opposite ones differ, since a face is dark on one side of an edge.
@@ -9,15 +10,7 @@ pub const BINS: usize = 8;
 pub const DESCRIPTOR: usize = 16 * BINS;
 
 /// Strength of the gradient in each direction, a pixel at a time.
-#[derive(Debug, Clone)]
-pub struct Channels {
-    /// Pixels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// The values, row by row.
-    pub values: Vec<[f32; BINS]>,
-}
+pub type Channels = Image<[f32; BINS]>;
 
 /// `cos` and `sin` of the eight directions.
 const HALF: f32 = std::f32::consts::FRAC_1_SQRT_2;
@@ -40,30 +33,29 @@ impl Channels {
     /// Of a grey plane.
     #[must_use]
     pub fn of(plane: &Plane) -> Self {
-        let (width, height) = (plane.width, plane.height);
+        let (width, height) = (plane.width(), plane.height());
         let mut values = Vec::with_capacity(width * height);
         for y in 0..height {
-            let row = |y: usize| &plane.values[y * width..(y + 1) * width];
-            let (above, here, below) = (row(y.saturating_sub(1)), row(y), row((y + 1).min(height - 1)));
+            let (above, here, below) =
+                (plane.row(y.saturating_sub(1)), plane.row(y), plane.row((y + 1).min(height - 1)));
             for x in 0..width {
                 let gx = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
                 values.push(share(gx, below[x] - above[x]));
             }
         }
-        Self { width, height, values }
+        Self::new(width, height, values)
     }
 
     /// Sums over squares of `side` pixels, one after another; what is left at the right and below is dropped.
     #[must_use]
     pub fn cells(plane: &Plane, side: usize) -> Self {
-        let (width, height) = (plane.width / side, plane.height / side);
-        let mut values = vec![[0.0_f32; BINS]; width * height];
-        let last = plane.width - 1;
+        let (width, height) = (plane.width() / side, plane.height() / side);
+        let mut cells = Self::filled(width, height, [0.0; BINS]);
+        let last = plane.width() - 1;
         for y in 0..height * side {
-            let row = |y: usize| &plane.values[y * plane.width..(y + 1) * plane.width];
-            let (above, here, below) = (row(y.saturating_sub(1)), row(y), row((y + 1).min(plane.height - 1)));
-            let sums = &mut values[y / side * width..(y / side + 1) * width];
-            for (i, sum) in sums.iter_mut().enumerate() {
+            let (above, here, below) =
+                (plane.row(y.saturating_sub(1)), plane.row(y), plane.row((y + 1).min(plane.height() - 1)));
+            for (i, sum) in cells.row_mut(y / side).iter_mut().enumerate() {
                 for x in i * side..(i + 1) * side {
                     let gx = here[(x + 1).min(last)] - here[x.saturating_sub(1)];
                     let shares = share(gx, below[x] - above[x]);
@@ -73,7 +65,7 @@ impl Channels {
                 }
             }
         }
-        Self { width, height, values }
+        cells
     }
 
     /// Spread so that a pixel holds what lies within `cell` pixels of it, the nearer the more: a triangle, by two
@@ -83,25 +75,22 @@ impl Channels {
         let side = (cell.round() as usize).max(1);
         let (before, after) = (side / 2, (side - 1) / 2);
         let mut out = self.clone();
-        let mut other = self.values.clone();
+        let mut other = self.clone();
         // An even side leans to one side; the second pass leans back.
         for (left, right) in [(before, after), (after, before)] {
-            for (from, to) in out.values.chunks_exact(self.width).zip(other.chunks_exact_mut(self.width)) {
-                running_mean(from, to, left, right);
+            for (y, from) in out.rows().enumerate() {
+                running_mean(from, other.row_mut(y), left, right);
             }
-            self.down(&other, &mut out.values, left, right);
+            other.down(&mut out, left, right);
         }
         out
     }
 
     /// Running means of each column over `up` rows above to `down` below.
-    fn down(&self, from: &[[f32; BINS]], to: &mut [[f32; BINS]], up: usize, down: usize) {
-        let (w, h) = (self.width, self.height);
+    fn down(&self, to: &mut Self, up: usize, down: usize) {
+        let (w, h) = (self.width(), self.height());
         let mean = 1.0 / (up + down + 1) as f32;
-        let row = |y: isize| {
-            let y = y.clamp(0, h as isize - 1) as usize;
-            &from[y * w..(y + 1) * w]
-        };
+        let row = |y: isize| self.row(y.clamp(0, h as isize - 1) as usize);
         let mut sums = vec![[0.0_f32; BINS]; w];
         for y in -(up as isize)..=down as isize {
             for (s, v) in sums.iter_mut().zip(row(y)) {
@@ -110,7 +99,7 @@ impl Channels {
         }
         for y in 0..h {
             let (leaves, enters) = (row(y as isize - up as isize), row(y as isize + down as isize + 1));
-            let out = &mut to[y * w..(y + 1) * w];
+            let out = to.row_mut(y);
             for (((s, o), l), e) in sums.iter_mut().zip(out).zip(leaves).zip(enters) {
                 for k in 0..BINS {
                     o[k] = s[k] * mean;
@@ -123,12 +112,8 @@ impl Channels {
     /// The channels between pixels, bilinear; beyond the border the nearest.
     #[inline]
     fn sample(&self, x: f32, y: f32) -> [f32; BINS] {
-        let x = x.clamp(0.0, (self.width - 1) as f32);
-        let y = y.clamp(0.0, (self.height - 1) as f32);
-        let (i, j) = (x as usize, y as usize);
-        let (fx, fy) = (x - i as f32, y - j as f32);
-        let (i1, j1) = ((i + 1).min(self.width - 1), (j + 1).min(self.height - 1));
-        let [a, b, c, d] = [(i, j), (i1, j), (i, j1), (i1, j1)].map(|(i, j)| &self.values[j * self.width + i]);
+        let ([a, b, c, d], [fx, fy]) = self.around(f64::from(x), f64::from(y));
+        let (fx, fy) = (fx as f32, fy as f32);
         let mut out = [0.0; BINS];
         for k in 0..BINS {
             let top = a[k] + (b[k] - a[k]) * fx;
@@ -140,10 +125,10 @@ impl Channels {
     /// Mean strength over the middle half of the picture: what its gradients are measured against.
     #[must_use]
     pub fn strength(&self) -> f32 {
-        let (w, h) = (self.width, self.height);
+        let (w, h) = (self.width(), self.height());
         let mut sum = 0.0;
         for y in h / 4..h - h / 4 {
-            sum += self.values[y * w + w / 4..(y + 1) * w - w / 4].iter().flatten().sum::<f32>();
+            sum += self.row(y)[w / 4..w - w / 4].iter().flatten().sum::<f32>();
         }
         sum / ((h - h / 4 - h / 4) * (w - w / 4 - w / 4)) as f32
     }

@@ -1,10 +1,10 @@
 //! Where in a picture a face may be: linear templates over cells of edge directions, slid over the picture at many
 //! sizes (Dalal and Triggs 2005), one for each of a few tilts of the head.
 
+use super::Pyramid;
 use super::channels::{BINS, Channels};
 use super::weights::{Matrix, Reader, Writer, dot};
-use super::{Frame, Pyramid};
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 use crate::photo::Plane;
 
 /// Pixels in a pupil distance at the size that a template is for.
@@ -35,7 +35,7 @@ pub struct Detector {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// The face's frame in the photo, to within a cell.
-    pub frame: Frame,
+    pub frame: Similarity,
     /// The template's sum: 0 is undecided.
     pub score: f32,
     /// Which template.
@@ -46,28 +46,28 @@ pub struct Hit {
 #[must_use]
 pub fn cells(plane: &Plane) -> Channels {
     let raw = Channels::cells(plane, CELL);
-    let (w, h) = (raw.width, raw.height);
-    let square: Vec<f32> = raw.values.iter().map(|c| c.iter().map(|v| v * v).sum()).collect();
-    let mut values = Vec::with_capacity(raw.values.len());
+    let (w, h) = (raw.width(), raw.height());
+    let square: Plane = raw.map(|c| c.iter().map(|v| v * v).sum());
+    let mut values = Vec::with_capacity(w * h);
     for y in 0..h {
-        let rows = [y.saturating_sub(1), y, (y + 1).min(h - 1)].map(|y| &square[y * w..(y + 1) * w]);
+        let rows = [y.saturating_sub(1), y, (y + 1).min(h - 1)].map(|y| square.row(y));
         let column = |x: usize| rows[0][x] + 2.0 * rows[1][x] + rows[2][x];
         for x in 0..w {
             let near = column(x.saturating_sub(1)) + 2.0 * column(x) + column((x + 1).min(w - 1));
             // A 3 × 3 binomial mean has weights of sixteen in all. Light without edges must not be blown up: 24 is
             // what a cell holds of the noise of a good camera.
             let inverse = 1.0 / (near / 16.0 + 24.0 * 24.0).sqrt();
-            values.push(raw.values[y * w + x].map(|v| (v * inverse).min(0.6)));
+            values.push(raw[(x, y)].map(|v| (v * inverse).min(0.6)));
         }
     }
-    Channels { width: w, height: h, values }
+    Channels::new(w, h, values)
 }
 
 /// The numbers of the window whose first cell is at `x`, `y`.
 pub fn window(cells: &Channels, x: usize, y: usize, out: &mut Vec<f32>) {
     out.clear();
     for row in y..y + SIDE {
-        out.extend(cells.values[row * cells.width + x..row * cells.width + x + SIDE].iter().flatten());
+        out.extend(cells.row(row)[x..x + SIDE].iter().flatten());
     }
 }
 
@@ -86,7 +86,7 @@ impl Detector {
             let size = |v: f64| (v / step) as usize / CELL * CELL + 2 * margin;
             // Pixel (0, 0) of the level shows what lies `margin` of its pixels before the photo's corner.
             let corner = (0.5 - margin as f64) * step - 0.5;
-            let place = Frame { a: step, b: 0.0, origin: Point::new(corner, corner) };
+            let place = Similarity { a: step, b: 0.0, origin: Point::new(corner, corner) };
             let level = cells(&picture.crop(&place, size(width), size(height)));
             self.scan_level(&level, &place, least, &mut hits);
             scale *= STEP;
@@ -95,12 +95,12 @@ impl Detector {
         apart(hits)
     }
 
-    fn scan_level(&self, level: &Channels, place: &Frame, least: f32, hits: &mut Vec<Hit>) {
-        let (w, h) = (level.width, level.height);
+    fn scan_level(&self, level: &Channels, place: &Similarity, least: f32, hits: &mut Vec<Hit>) {
+        let (w, h) = (level.width(), level.height());
         if w < SIDE || h < SIDE {
             return;
         }
-        let flat = level.values.as_flattened();
+        let flat = level.pixels().as_flattened();
         for y in 0..=h - SIDE {
             for x in 0..=w - SIDE {
                 for (template, roll) in self.rolls.iter().enumerate() {
@@ -135,11 +135,11 @@ impl Detector {
 }
 
 /// The face's frame, of a window whose first cell is at `x`, `y` of a level that lies at `place`.
-fn frame_of(x: usize, y: usize, roll: f64, place: &Frame) -> Frame {
+fn frame_of(x: usize, y: usize, roll: f64, place: &Similarity) -> Similarity {
     let half = (SIDE * CELL) as f64 / 2.0 - 0.5;
     let middle = Point::new((x * CELL) as f64 + half, (y * CELL) as f64 + half);
-    let turned = Frame::new(middle, SCALE, roll);
-    place.after(&Frame { origin: turned.apply(Point::new(0.0, -BELOW)), ..turned })
+    let turned = Similarity::new(middle, SCALE, roll);
+    place.after(&Similarity { origin: turned.apply(Point::new(0.0, -BELOW)), ..turned })
 }
 
 /// Best first: those whose middle is farther than 0.7 pupil distances from that of any better one, or which are of
@@ -147,7 +147,7 @@ fn frame_of(x: usize, y: usize, roll: f64, place: &Frame) -> Frame {
 fn apart(hits: Vec<Hit>) -> Vec<Hit> {
     let mut kept: Vec<Hit> = Vec::new();
     for hit in hits {
-        let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
+        let middle = |f: &Similarity| f.apply(Point::new(0.0, BELOW));
         let near = |other: &Hit| {
             let (a, b) = (hit.frame.scale(), other.frame.scale());
             middle(&hit.frame).distance(middle(&other.frame)) < 0.7 * a.max(b) && a.max(b) < 1.8 * a.min(b)

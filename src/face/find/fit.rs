@@ -1,9 +1,9 @@
 //! A shape laid on a face, from several starts.
 
+use super::Pyramid;
 use super::cascade::{Chip, Stage};
 use super::shape::ShapeModel;
-use super::{Frame, Pyramid};
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 
 /// Points of a shape that are known: which, where in the photo, and by how many pupil distances that may be off.
 pub type Known = (usize, Point, f64);
@@ -12,7 +12,7 @@ pub type Known = (usize, Point, f64);
 #[derive(Debug, Clone)]
 pub struct Fit {
     /// Where the face lies in the photo.
-    pub frame: Frame,
+    pub frame: Similarity,
     /// The points in the face frame.
     pub shape: Vec<Point>,
     /// How far the several starts ended from each other at each point, in pupil distances: root mean square.
@@ -34,7 +34,7 @@ const CLOSE: f64 = 0.4;
 impl Fit {
     /// The mean face at a frame.
     #[must_use]
-    pub fn at(model: &ShapeModel, frame: Frame) -> Self {
+    pub fn at(model: &ShapeModel, frame: Similarity) -> Self {
         Self { frame, shape: model.mean.clone(), spread: vec![0.0; model.count()] }
     }
 
@@ -104,6 +104,6 @@ impl Fit {
 /// A shape as a start has it.
 fn jittered(shape: &[Point], start: &[f64; 4], share: f64) -> Vec<Point> {
     let origin = Point::new(start[0] * share, start[1] * share);
-    let by = Frame::new(origin, 1.0 + (start[3] - 1.0) * share, start[2] * share);
+    let by = Similarity::new(origin, 1.0 + (start[3] - 1.0) * share, start[2] * share);
     shape.iter().map(|p| by.apply(*p)).collect()
 }

@@ -3,9 +3,9 @@
 use super::fit::{Fit, Known};
 use super::refusal::{Doubt, Refusal};
 use super::search::{Candidate, SMALLEST, WORKING_SIDE, apart};
-use super::{Frame, Model, Pyramid};
+use super::{Model, Pyramid};
 use crate::face::{FeaturePoint as P, How, Placed};
-use crate::geometry::Point;
+use crate::geometry::{Point, Similarity};
 use crate::photo::Photo;
 
 /// A face as it was found.
@@ -132,7 +132,7 @@ pub fn find_from(photo: &Photo, anchors: &Anchors) -> Found {
         points.iter().zip(places).enumerate().filter_map(|(i, (p, at))| Some((index(*p)?, at, slack(i)))).collect();
     let means: Vec<Point> = fixed.iter().map(|(i, ..)| model.shapes.mean[*i]).collect();
     let at: Vec<Point> = fixed.iter().map(|f| f.1).collect();
-    let frame = Frame::fitting(&means, &at).unwrap_or(Frame::of_pupils(anchors.left_eye, anchors.right_eye));
+    let frame = Similarity::between(&means, &at).unwrap_or(Similarity::spanning(anchors.left_eye, anchors.right_eye));
     let (small, step) = photo.at_most(WORKING_SIDE);
     let rough = model.roughly(&Pyramid::of(&small, step), frame, 0.0, &fixed);
     let close = model.closely(photo, &rough, &fixed);
@@ -178,12 +178,12 @@ impl Model {
     }
 
     /// Where a face is of which a hand has set three points or more that lie apart.
-    fn frame_by_hand(&self, hands: &[(P, Point)]) -> Option<Frame> {
+    fn frame_by_hand(&self, hands: &[(P, Point)]) -> Option<Similarity> {
         let pairs: Vec<(Point, Point)> =
             hands.iter().filter_map(|(p, at)| Some((self.shapes.mean[self.learned_index(*p)?], *at))).collect();
         let (means, places): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
         let wide = means.iter().any(|a| means.iter().any(|b| a.distance(*b) > 0.7));
-        (means.len() >= 3 && wide).then(|| Frame::fitting(&means, &places)).flatten().filter(|f| f.scale() > 8.0)
+        (means.len() >= 3 && wide).then(|| Similarity::between(&means, &places)).flatten().filter(|f| f.scale() > 8.0)
     }
 
     /// The 47 points and what else is said of a fit.
@@ -211,9 +211,9 @@ impl Model {
         by_rule(&mut points);
         set(&mut points);
         let at = |p: P| points[p.index()].at;
-        let pupils = Frame::of_pupils(at(P::P3_6), at(P::P3_5));
+        let pupils = Similarity::spanning(at(P::P3_6), at(P::P3_5));
         let own = |p: P| pupils.undo(at(p));
-        let roll = pupils.roll().to_degrees();
+        let roll = pupils.angle().to_degrees();
         // The nose stands out by 0.45 pupil distances before the eyes, so its base moves by 0.45 sin(yaw).
         let yaw = (own(P::P9_15).x / 0.45).clamp(-1.0, 1.0).asin().to_degrees();
         let width = at(P::P8_4).distance(at(P::P8_3)).max(1e-6);
@@ -243,7 +243,7 @@ impl Model {
 /// (thesis sec. 4.3.2 A 1).
 fn chin(points: &mut [Placed; P::FIXED]) {
     let at = |p: P| points[p.index()].at;
-    let pupils = Frame::of_pupils(at(P::P3_6), at(P::P3_5));
+    let pupils = Similarity::spanning(at(P::P3_6), at(P::P3_5));
     let (lip, chin) = (pupils.undo(at(P::P8_2)), pupils.undo(at(P::P2_1)));
     if points[P::P2_1.index()].how == How::Found && !(0.15..1.1).contains(&(chin.y - lip.y)) {
         let guess = pupils.apply(Point::new(lip.x, lip.y + 0.7));
@@ -255,7 +255,7 @@ fn chin(points: &mut [Placed; P::FIXED]) {
 /// the pupils (thesis alg. 4.4); a little inside the wings, a fifth of the nose's height above them (the recipe).
 fn by_rule(points: &mut [Placed; P::FIXED]) {
     let of = |p: P| points[p.index()];
-    let pupils = Frame::of_pupils(of(P::P3_6).at, of(P::P3_5).at);
+    let pupils = Similarity::spanning(of(P::P3_6).at, of(P::P3_5).at);
     let own = |p: P| pupils.undo(of(p).at);
     let (inner, other) = (own(P::P3_8), own(P::P3_11));
     let third = (other.x - inner.x) / 3.0;

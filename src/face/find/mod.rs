@@ -8,7 +8,6 @@ pub mod cascade;
 pub mod channels;
 pub mod detector;
 mod fit;
-mod frame;
 mod given;
 pub mod looks;
 mod model;
@@ -19,7 +18,6 @@ pub mod shape;
 pub mod weights;
 
 pub use fit::{Fit, Known};
-pub use frame::Frame;
 pub use given::{Anchors, Found, find, find_from};
 pub use model::Model;
 pub use pyramid::Pyramid;

@@ -3,8 +3,8 @@
 use super::cascade::{Chip, Spread, Stage};
 use super::detector::BELOW;
 use super::fit::{Fit, Known};
-use super::{Frame, Model, Pyramid};
-use crate::geometry::Point;
+use super::{Model, Pyramid};
+use crate::geometry::{Point, Similarity};
 use crate::photo::Photo;
 
 /// The longer side of the copy of a photo in which faces are looked for.
@@ -50,7 +50,7 @@ impl Model {
 
     /// The rough fit from a frame.
     #[must_use]
-    pub fn roughly(&self, picture: &Pyramid, frame: Frame, window: f32, known: &[Known]) -> Candidate {
+    pub fn roughly(&self, picture: &Pyramid, frame: Similarity, window: f32, known: &[Known]) -> Candidate {
         let fit = Fit::at(&self.shapes, frame).through(&self.shapes, &self.coarse, picture, known, 1.0);
         let rough = self.judged(0, picture, &fit);
         Candidate { fit, window, rough, close: f32::NEG_INFINITY, strangeness: Vec::new() }
@@ -100,7 +100,7 @@ impl Model {
 }
 
 /// Whether two frames are of different faces.
-pub fn apart(a: &Frame, b: &Frame) -> bool {
-    let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
+pub fn apart(a: &Similarity, b: &Similarity) -> bool {
+    let middle = |f: &Similarity| f.apply(Point::new(0.0, BELOW));
     middle(a).distance(middle(b)) > 0.9 * a.scale().max(b.scale())
 }

@@ -2,9 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Frame;
 use super::weights::{Matrix, Reader, Writer};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 
 /// Mean and modes, in the face frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,9 +44,9 @@ impl ShapeModel {
 
     /// The similarity that lays the mean on a shape, by the steady points.
     #[must_use]
-    pub fn frame_of(&self, shape: &[Point]) -> Frame {
+    pub fn frame_of(&self, shape: &[Point]) -> Similarity {
         let pick = |points: &[Point]| self.steady.iter().map(|i| points[*i]).collect::<Vec<_>>();
-        Frame::fitting(&pick(&self.mean), &pick(shape)).unwrap_or(Frame::new(Point::ORIGIN, 1.0, 0.0))
+        Similarity::between(&pick(&self.mean), &pick(shape)).unwrap_or(Similarity::new(Point::ORIGIN, 1.0, 0.0))
     }
 
     /// A shape bent so that some of its points come to lie where they are known to be, the others following as the

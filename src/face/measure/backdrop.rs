@@ -1,10 +1,11 @@
 //! What is behind the head: a smooth surface of colour fitted to what lies far from the face, and how plain it is.
 
 use super::frame::Lab;
-use super::mask::{CELLS, COLUMNS, Mask, ROWS, centre};
+use super::mask::{CELLS, COLUMNS, ROWS, centre, no_cells};
 use super::mixture::Mixture;
 use super::shape::Shape;
 use crate::geometry::Point;
+use crate::photo::Mask;
 
 /// 1, u, v, u², uv, v².
 const TERMS: usize = 6;
@@ -46,7 +47,8 @@ impl Backdrop {
             .filter(|c| (c % COLUMNS + c / COLUMNS * 2).is_multiple_of(STRIDE) && inside[*c] && far(centre(*c)))
             .collect();
         // Straight above the head high hair may reach the border.
-        let seeds: Vec<usize> = beyond.iter().copied().filter(|c| border.0[*c] && centre(*c).x.abs() > 100.0).collect();
+        let seeds: Vec<usize> =
+            beyond.iter().copied().filter(|c| border.pixels()[*c] && centre(*c).x.abs() > 100.0).collect();
         let start = if seeds.len() < 40 { beyond.clone() } else { seeds };
         let mut chosen = start.clone();
         let mut surface = [[0.0; TERMS]; 3];
@@ -102,7 +104,7 @@ impl Backdrop {
 /// A band of 30 units at the left, upper and right border of what the photo shows.
 fn border(inside: &[bool]) -> Mask {
     const BAND: usize = 15;
-    let mut mask = Mask::none();
+    let mut mask = no_cells();
     for row in 0..ROWS {
         let cells = &inside[row * COLUMNS..(row + 1) * COLUMNS];
         let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else {
@@ -110,7 +112,7 @@ fn border(inside: &[bool]) -> Mask {
         };
         let above = row >= BAND && inside[(row - BAND) * COLUMNS + (first + last) / 2];
         for column in first..=last {
-            mask.0[row * COLUMNS + column] = !above || column < first + BAND || column + BAND > last;
+            mask[(column, row)] = !above || column < first + BAND || column + BAND > last;
         }
     }
     mask

@@ -2,18 +2,19 @@
 
 use super::colours::{Cheeks, chin, median};
 use super::frame::{Frame, Lab};
-use super::mask::{COLUMNS, Mask, centre, column_at, row_at};
+use super::mask::{COLUMNS, centre, column_at, row_at};
 use super::segment::Regions;
 use super::shape::{Shape, USUAL_JAW, jaw_curve};
 use crate::face::{Beard, FeaturePoint as P};
 use crate::geometry::{ParamCurve, Point, Vec2};
+use crate::photo::Mask;
 
 /// How much darker than the cheek of the same side chin, jaw, lower cheek and upper lip are. Where hair hangs before
 /// them they are not measured, and count as not darker.
 pub(super) fn beard(frame: &Frame, shape: &Shape, cheeks: &Cheeks, hair: &Mask) -> Beard {
     let p = &shape.points;
     let both = (cheeks.light[0] + cheeks.light[1]) / 2.0;
-    let clear = |at: Point| !hair.0[row_at(at.y) * COLUMNS + column_at(at.x)];
+    let clear = |at: Point| !hair[(column_at(at.x), row_at(at.y))];
     let darker = |light: f32, at: Point, radius: f64| {
         let tone = median(&frame.around(at, radius)).filter(|_| clear(at))?;
         Some(f64::from(light - tone[0]))

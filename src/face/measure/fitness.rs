@@ -2,9 +2,10 @@
 
 use super::colours::Cheeks;
 use super::hair::Found;
-use super::mask::Mask;
+use super::mask::{CELL, cells_in, per_cell};
 use super::segment::Regions;
 use super::shape::Shape;
+use crate::photo::Mask;
 
 /// What a check of a photo needs to know of it. Lightness is OKLab's, 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,9 +33,9 @@ pub struct Fitness {
 
 impl Fitness {
     pub(super) fn of(regions: &Regions, shape: &Shape, cheeks: &Cheeks, hair: &Found, glasses: f64) -> Self {
-        let mut light: Vec<f32> = Mask::polygon(&shape.face)
-            .cells()
-            .filter(|c| regions.inside[*c] && !hair.mask.0[*c])
+        let mut light: Vec<f32> = cells_in(&shape.face)
+            .indices()
+            .filter(|c| regions.inside[*c] && !hair.mask.pixels()[*c])
             .map(|c| regions.lab[c][0])
             .collect();
         light.sort_by(f32::total_cmp);
@@ -58,10 +59,10 @@ impl Fitness {
 
 /// How far the colours of hair are from the background's within 20 units of the hair's outer edge.
 fn hair_contrast(regions: &Regions, hair: &Mask) -> Option<f64> {
-    let behind = Mask::of(|c| regions.inside[c] && regions.back()[c] > 0.5);
-    let rim = behind.grown(20.0).and(hair);
+    let behind = per_cell(|c| regions.inside[c] && regions.back()[c] > 0.5);
+    let rim = behind.grown(20.0 / CELL).and(hair);
     let mut far: Vec<f64> = rim
-        .cells()
+        .indices()
         .map(|c| {
             let (is, wall) = (regions.lab[c], regions.backdrop.colour(c));
             f64::from((0..3).map(|k| (is[k] - wall[k]).powi(2)).sum::<f32>().sqrt())

@@ -34,7 +34,7 @@ impl Frame {
         let corner = Affine::translate(VIEW.origin().to_vec2());
         let small = Reduced::of(photo, to_photo.transform_rect_bbox(VIEW), scale);
         let [xx, xy, yx, yy, x0, y0] = (small.from_photo * to_photo * corner).as_coeffs().map(|c| c as f32);
-        let (right, bottom) = (small.width as f32 - 0.5, small.height as f32 - 0.5);
+        let (right, bottom) = (small.photo.width() as f32 - 0.5, small.photo.height() as f32 - 0.5);
         let curve = Curve::new();
         let mut lab = Vec::with_capacity(WIDTH * HEIGHT);
         let mut inside = Vec::with_capacity(WIDTH * HEIGHT);
@@ -111,9 +111,7 @@ pub(super) fn scan(polygon: &[Point], width: usize, height: usize, mut fill: imp
 
 /// The part of a photo that the frame shows, made smaller by averaging whole areas where the photo is larger.
 struct Reduced {
-    width: usize,
-    height: usize,
-    pixels: Vec<[u8; 3]>,
+    photo: Photo,
     from_photo: Affine,
 }
 
@@ -138,7 +136,7 @@ impl Reduced {
                 let count = (rows.len() * columns.len()).max(1) as u32;
                 let mut sum = [count / 2; 3];
                 for y in rows.clone() {
-                    for p in &photo.pixels()[y * w + columns.start..y * w + columns.end] {
+                    for p in &photo.row(y)[columns.clone()] {
                         sum.iter_mut().zip(p).for_each(|(s, v)| *s += u32::from(*v));
                     }
                 }
@@ -149,23 +147,19 @@ impl Reduced {
         let middle = (step as f64 - 1.0) / 2.0;
         let from_photo =
             Affine::scale(1.0 / step as f64) * Affine::translate((-(left as f64) - middle, -(top as f64) - middle));
-        Self { width, height, pixels, from_photo }
+        Self { photo: Photo::new(width, height, pixels), from_photo }
     }
 
     /// Bilinear, sRGB 0 to 255; beyond the border the nearest pixel.
     fn sample(&self, x: f32, y: f32) -> [f32; 3] {
-        let x = x.clamp(0.0, (self.width - 1) as f32);
-        let y = y.clamp(0.0, (self.height - 1) as f32);
-        let (c0, r0) = (x as usize, y as usize);
-        let (c1, r1) = ((c0 + 1).min(self.width - 1), (r0 + 1).min(self.height - 1));
-        let (fx, fy) = (x - c0 as f32, y - r0 as f32);
-        let [p, q] = [r0, r1].map(|r| [self.pixels[r * self.width + c0], self.pixels[r * self.width + c1]]);
+        let ([a, b, c, d], [fx, fy]) = self.photo.around(f64::from(x), f64::from(y));
+        let (fx, fy) = (fx as f32, fy as f32);
         std::array::from_fn(|k| {
-            let mix = |pair: [[u8; 3]; 2]| {
-                let (u, v) = (f32::from(pair[0][k]), f32::from(pair[1][k]));
+            let mix = |p: &[u8; 3], q: &[u8; 3]| {
+                let (u, v) = (f32::from(p[k]), f32::from(q[k]));
                 u + (v - u) * fx
             };
-            let (top, bottom) = (mix(p), mix(q));
+            let (top, bottom) = (mix(a, b), mix(c, d));
             top + (bottom - top) * fy
         })
     }

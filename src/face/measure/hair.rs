@@ -3,12 +3,16 @@
 use super::colours::median;
 use super::frame::Lab;
 use super::kind::kind;
-use super::mask::{CELL, CELLS, COLUMNS, Mask, ROWS, boxed, centre, column_at};
+use super::mask::{
+    CELL, CELLS, COLUMNS, ROWS, area_of, cells_in, centre, column_at, field_of, no_cells, per_cell, pieces_of,
+    without_holes,
+};
 use super::outline::{area, loops, simplified};
 use super::segment::{Regions, ear};
 use super::shape::Shape;
 use crate::face::{FeaturePoint as P, HairKind};
 use crate::geometry::{Point, Vec2};
+use crate::photo::{Mask, Plane};
 
 /// How far a simplified outline may stray from the measured one, in units: at 2.3 hair keeps 50 to 60 vertices.
 const TOLERANCE: f64 = 2.3;
@@ -41,19 +45,19 @@ pub(super) struct Found {
 
 /// The hair of segmented cells.
 pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
-    let head = Mask::of(|c| regions.inside[c] && regions.back()[c] < 0.5);
-    let head = head.pieces().into_iter().next().unwrap_or_else(Mask::none);
-    let raw = Mask::of(|c| regions.hair()[c] > 0.5);
+    let head = per_cell(|c| regions.inside[c] && regions.back()[c] < 0.5);
+    let head = pieces_of(&head).into_iter().next().unwrap_or_else(no_cells);
+    let raw = per_cell(|c| regions.hair()[c] > 0.5);
     let mask = without_shade(&raw, regions, shape);
     let (ears, mask) = with_hidden_ears(mask, regions, shape);
-    let mask = Mask(mask.opened(1.5).0);
+    let mask = mask.opened(1.5 / CELL);
     let mask = pieces(&mask, shape);
-    let mask = without_brows(mask, shape).without_holes(LEAST_HOLE);
+    let mask = without_holes(without_brows(mask, shape), LEAST_HOLE);
     let mask = pieces(&mask, shape);
     let top = top(&head.or(&mask)).unwrap_or(shape.points[P::P11_1].y);
     let kind = kind(regions, shape, &head, &mask, skin);
     if kind == HairKind::Bald {
-        let none = Mask::none();
+        let none = no_cells();
         return Found {
             kind,
             front: Vec::new(),
@@ -66,14 +70,14 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
         };
     }
     // Short hair has no locks below the ears.
-    let mask = if kind == HairKind::Shaved { Mask::of(|c| mask.0[c] && centre(c).y < shape.lobe) } else { mask };
+    let mask = if kind == HairKind::Shaved { per_cell(|c| mask.pixels()[c] && centre(c).y < shape.lobe) } else { mask };
     // Lights on a shaved head are no holes in its hair.
-    let mask = if kind == HairKind::Shaved { mask.without_holes(1e9) } else { mask };
+    let mask = if kind == HairKind::Shaved { without_holes(mask, 1e9) } else { mask };
     // Over the brows hair faces the camera; beside the face it lies in the shade.
-    let core = mask.grown(-2.0);
-    let over = core.and(&Mask::of(|c| centre(c).y < shape.brows - 10.0 && regions.from_face[c] < 45.0));
-    let facing = if over.area() > 1500.0 { over } else { core };
-    let mut colours: Vec<Lab> = facing.cells().map(|c| regions.lab[c]).collect();
+    let core = mask.grown(-2.0 / CELL);
+    let over = core.and(&per_cell(|c| centre(c).y < shape.brows - 10.0 && regions.from_face[c] < 45.0));
+    let facing = if area_of(&over) > 1500.0 { over } else { core };
+    let mut colours: Vec<Lab> = facing.indices().map(|c| regions.lab[c]).collect();
     if kind == HairKind::Shaved {
         // A shaved head shines: stubble is what does not.
         colours.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -88,25 +92,25 @@ pub(super) fn found(regions: &Regions, shape: &Shape, skin: Lab) -> Found {
 
 /// Without what is as dark as hair where none grows: the throat, the neck in the shade, the cheek's edge.
 fn without_shade(raw: &Mask, regions: &Regions, shape: &Shape) -> Mask {
-    let throat = Mask::of(|c| {
+    let throat = per_cell(|c| {
         let p = centre(c);
         let x = p.x.abs();
         (p.y > shape.lobe && x < 0.72 * shape.half_jaw) || (p.y > shape.chin - 12.0 && x < 0.9 * shape.half_jaw)
     });
     let clear = raw.without(&throat);
     // Below the lobes, and before the ears below the eyes, hair and shade look alike.
-    let low = Mask::of(|c| clear.0[c] && centre(c).y > shape.lobe);
-    let side = Mask::of(|c| {
+    let low = per_cell(|c| clear.pixels()[c] && centre(c).y > shape.lobe);
+    let side = per_cell(|c| {
         let p = centre(c);
-        clear.0[c] && p.y <= shape.lobe && p.y > 6.0 && p.x.abs() < shape.ears + 3.0
+        clear.pixels()[c] && p.y <= shape.lobe && p.y > 6.0 && p.x.abs() < shape.ears + 3.0
     });
     let certain = clear.without(&low).without(&side);
-    let colours = |mask: &Mask| median(&mask.cells().map(|c| regions.lab[c]).collect::<Vec<_>>());
-    let Some(hair) = colours(&certain.grown(-2.0)) else { return certain };
+    let colours = |mask: &Mask| median(&mask.indices().map(|c| regions.lab[c]).collect::<Vec<_>>());
+    let Some(hair) = colours(&certain.grown(-2.0 / CELL)) else { return certain };
     let kept = |doubtful: &Mask, test: &dyn Fn(&Mask) -> bool| {
-        let pieces = doubtful.opened(3.0).pieces();
-        let real = pieces.iter().filter(|p| test(p)).fold(Mask::none(), |all, p| all.or(p));
-        doubtful.and(&real.grown(3.0))
+        let pieces = pieces_of(&doubtful.opened(3.0 / CELL));
+        let real = pieces.iter().filter(|p| test(p)).fold(no_cells(), |all, p| all.or(p));
+        doubtful.and(&real.grown(3.0 / CELL))
     };
     // Sideburns are as dark as the rest of the hair, or broader than any shade.
     let sideburns = kept(&side, &|piece| {
@@ -115,7 +119,7 @@ fn without_shade(raw: &Mask, regions: &Regions, shape: &Shape) -> Mask {
             l < 0.07 && a.hypot(b) < 0.03
         })
     });
-    let broad = side.and(&side.opened(6.0).grown(4.0));
+    let broad = side.and(&side.opened(6.0 / CELL).grown(4.0 / CELL));
     let locks = kept(&low, &|piece| is_lock(regions, piece));
     certain.or(&sideburns).or(&broad).or(&locks)
 }
@@ -128,16 +132,16 @@ fn is_lock(regions: &Regions, piece: &Mask) -> bool {
     const ROUGH: f32 = 0.021;
     const EDGE: f32 = 0.10;
     let light = |cell: usize| regions.lab[cell][0];
-    let core: Vec<usize> = piece.grown(-3.0).cells().filter(|c| (COLUMNS + 1..CELLS - COLUMNS).contains(c)).collect();
+    let core: Vec<usize> =
+        piece.grown(-3.0 / CELL).indices().filter(|c| (COLUMNS + 1..CELLS - COLUMNS).contains(c)).collect();
     let rough = core.iter().map(|c| {
         let around = light(c - 1) + light(c + 1) + light(c - COLUMNS) + light(c + COLUMNS);
         (light(*c) - around / 4.0).abs()
     });
     let rough = rough.sum::<f32>() / core.len().max(1) as f32;
-    let left = piece.cells().map(|c| centre(c).x).sum::<f64>() < 0.0;
+    let left = piece.indices().map(|c| centre(c).x).sum::<f64>() < 0.0;
     let mut edges: Vec<f32> = piece
-        .0
-        .chunks_exact(COLUMNS)
+        .rows()
         .enumerate()
         .filter_map(|(row, cells)| {
             let edge = if left { cells.iter().rposition(|v| *v) } else { cells.iter().position(|v| *v) }?;
@@ -150,7 +154,7 @@ fn is_lock(regions: &Regions, piece: &Mask) -> bool {
         })
         .collect();
     edges.sort_by(f32::total_cmp);
-    piece.area() > LARGE || rough > ROUGH || edges.get(edges.len() / 2).is_some_and(|e| *e > EDGE)
+    area_of(piece) > LARGE || rough > ROUGH || edges.get(edges.len() / 2).is_some_and(|e| *e > EDGE)
 }
 
 /// Notches beside an ear under hair that are narrower than twice this, in face units, are filled.
@@ -161,15 +165,15 @@ fn with_hidden_ears(mut mask: Mask, regions: &Regions, shape: &Shape) -> ([f64; 
     let p = &shape.points;
     let sides = [[p[P::P10_2], p[P::P10_4], p[P::P10_6]], [p[P::P10_1], p[P::P10_3], p[P::P10_5]]];
     let seen = sides.map(|[top, out, lobe]| {
-        let whole = Mask::polygon(&ear(top, out, lobe));
-        let skin = whole.cells().filter(|c| regions.skin()[*c] > 0.5 && !mask.0[*c]).count();
+        let whole = cells_in(&ear(top, out, lobe));
+        let skin = whole.indices().filter(|c| regions.skin()[*c] > 0.5 && !mask.pixels()[*c]).count();
         let seen = skin as f64 / whole.count().max(1) as f64;
         if seen < 0.45 {
-            mask = mask.or(&Mask::of(|c| whole.0[c] && regions.back()[c] < 0.5));
+            mask = mask.or(&per_cell(|c| whole.pixels()[c] && regions.back()[c] < 0.5));
             // What shows of it between hair and cheek would be a notch in the hair.
-            let even = mask.closed(NOTCH);
+            let even = mask.closed(NOTCH / CELL);
             let near = |p: Point| p.distance(lobe) < 3.0 * NOTCH && p.y < lobe.y + NOTCH;
-            mask = mask.or(&Mask::of(|c| even.0[c] && near(centre(c)) && regions.back()[c] < 0.5));
+            mask = mask.or(&per_cell(|c| even.pixels()[c] && near(centre(c)) && regions.back()[c] < 0.5));
         }
         seen
     });
@@ -178,15 +182,15 @@ fn with_hidden_ears(mut mask: Mask, regions: &Regions, shape: &Shape) -> ([f64; 
 
 /// The largest piece on the head, and at most three that are neither small against it nor larger: those are clothes.
 fn pieces(mask: &Mask, shape: &Shape) -> Mask {
-    let pieces = mask.pieces();
-    let on_head = |piece: &&Mask| piece.cells().any(|c| centre(c).y < shape.ear_top);
-    let Some(main) = pieces.iter().find(on_head) else { return Mask::none() };
-    let largest = main.area();
+    let pieces = pieces_of(mask);
+    let on_head = |piece: &&Mask| piece.indices().any(|c| centre(c).y < shape.ear_top);
+    let Some(main) = pieces.iter().find(on_head) else { return no_cells() };
+    let largest = area_of(main);
     pieces
         .iter()
-        .filter(|p| p.area() > LEAST_PIECE && p.area() > 0.05 * largest && p.area() <= largest)
+        .filter(|p| area_of(p) > LEAST_PIECE && area_of(p) > 0.05 * largest && area_of(p) <= largest)
         .take(4)
-        .fold(Mask::none(), |all, p| all.or(p))
+        .fold(no_cells(), |all, p| all.or(p))
 }
 
 /// With a window round the brows: those under a fringe could not act (recipe part 6).
@@ -197,36 +201,31 @@ fn without_brows(mut mask: Mask, shape: &Shape) -> Mask {
     {
         let mut window: Vec<Point> = brow.iter().map(|b| p[*b] - Vec2::new(0.0, 7.0)).collect();
         window.extend(brow.iter().rev().map(|b| Point::new(p[*b].x, p[eye].y + 4.0)));
-        mask = mask.without(&Mask::polygon(&window));
+        mask = mask.without(&cells_in(&window));
     }
     mask
 }
 
 /// The highest row of the head that is at least 6 units wide; none where there is no such row.
 fn top(head: &Mask) -> Option<f64> {
-    let row = head.0.chunks_exact(COLUMNS).position(|row| row.iter().filter(|v| **v).count() >= 3);
+    let row = head.rows().position(|row| row.iter().filter(|v| **v).count() >= 3);
     row.map(|row| centre(row * COLUMNS).y - CELL / 2.0)
 }
 
 /// The mask with the soft edges of the labels, blurred by about one and a half units.
-fn field(regions: &Regions, mask: &Mask) -> Vec<f32> {
-    let near = mask.grown(3.0);
-    let soft: Vec<f32> = regions
-        .hair()
-        .iter()
-        .enumerate()
-        .map(|(c, p)| match (mask.0[c], near.0[c]) {
-            (true, _) => p.max(0.55),
-            (_, true) => p.min(0.45),
-            _ => 0.0,
-        })
-        .collect();
+fn field(regions: &Regions, mask: &Mask) -> Plane {
+    let near = mask.grown(3.0 / CELL);
+    let soft: Plane = per_cell(|c| match (mask.pixels()[c], near.pixels()[c]) {
+        (true, _) => regions.hair()[c].max(0.55),
+        (_, true) => regions.hair()[c].min(0.45),
+        _ => 0.0,
+    });
     // Twice a mean over three cells has a spread of 1.2 cells.
-    boxed(&boxed(&soft, 1), 1)
+    soft.boxed(1).boxed(1)
 }
 
 /// The outlines with few vertices, and which 25 of the first one the points are.
-fn outlines(field: &[f32]) -> (Vec<Vec<Point>>, Vec<usize>) {
+fn outlines(field: &Plane) -> (Vec<Vec<Point>>, Vec<usize>) {
     let mut front = Vec::new();
     let mut vertices = Vec::new();
     for outline in loops(field) {
@@ -269,7 +268,7 @@ fn ends(outline: &[Point]) -> (usize, usize) {
 fn back(mask: &Mask, _shape: &Shape) -> Vec<Vec<Point>> {
     let mut filled = mask.clone();
     for row in 0..ROWS {
-        let cells = &mut filled.0[row * COLUMNS..(row + 1) * COLUMNS];
+        let cells = filled.row_mut(row);
         let (Some(first), Some(last)) = (cells.iter().position(|v| *v), cells.iter().rposition(|v| *v)) else {
             continue;
         };
@@ -278,8 +277,8 @@ fn back(mask: &Mask, _shape: &Shape) -> Vec<Vec<Point>> {
             cells[first..=last].fill(true);
         }
     }
-    let closed = filled.closed(14.0).without_holes(1e9);
-    let soft = boxed(&boxed(&closed.field(), 1), 1);
+    let closed = without_holes(filled.closed(14.0 / CELL), 1e9);
+    let soft = field_of(&closed).boxed(1).boxed(1);
     loops(&soft)
         .into_iter()
         .filter(|o| area(o) > LEAST_PIECE)

@@ -2,10 +2,11 @@
 
 use super::colours::median;
 use super::frame::Lab;
-use super::mask::{Mask, centre};
+use super::mask::{area_of, centre, per_cell};
 use super::segment::Regions;
 use super::shape::Shape;
 use crate::face::HairKind;
+use crate::photo::Mask;
 
 /// Hair that covers more than this many square units is not shaved (recipe part 6).
 const SHAVED_AREA: f64 = 15_000.0;
@@ -16,20 +17,20 @@ const SHAVED_AREA: f64 = 15_000.0;
 /// the cap is darker than the forehead or greyer than light or shade make the forehead's skin; else the head is bald.
 /// A bare scalp shines: lights on it are lighter than the forehead and as much greyer as white is mixed in.
 pub(super) fn kind(regions: &Regions, shape: &Shape, head: &Mask, mask: &Mask, skin: Lab) -> HairKind {
-    let colours = |mask: &Mask| -> Vec<Lab> { mask.cells().map(|c| regions.lab[c]).collect() };
-    let cap = Mask::of(|c| head.0[c] && regions.from_face[c] > 4.0 && centre(c).y < shape.ear_top - 4.0);
+    let colours = |mask: &Mask| -> Vec<Lab> { mask.indices().map(|c| regions.lab[c]).collect() };
+    let cap = per_cell(|c| head.pixels()[c] && regions.from_face[c] > 4.0 && centre(c).y < shape.ear_top - 4.0);
     let scalp = colours(&cap);
     let Some(tone) = median(&scalp) else { return HairKind::Bald };
     let through = tone[0] / skin[0].max(0.05) > 0.79;
     // Fair hair is as light as skin too, but yellower.
     let yellow = tone[2] / tone[0].max(0.05) > skin[2] / skin[0].max(0.05) + 0.004;
-    if mask.area() < 0.1 * cap.area() {
+    if area_of(mask) < 0.1 * area_of(&cap) {
         return HairKind::Bald;
     }
-    if mask.area() > SHAVED_AREA || !through || yellow {
+    if area_of(mask) > SHAVED_AREA || !through || yellow {
         return HairKind::Straight;
     }
-    let forehead = Mask::of(|c| {
+    let forehead = per_cell(|c| {
         (-25.0..-4.0).contains(&regions.from_face[c]) && centre(c).y < shape.brows - 8.0 && regions.skin()[c] > 0.5
     });
     let forehead = median(&colours(&forehead)).unwrap_or(skin);

@@ -4,16 +4,17 @@
 use super::frame::VIEW;
 use super::mask::{CELL, COLUMNS, ROWS};
 use crate::geometry::Point;
+use crate::photo::Plane;
 
 /// Where a field over the cells passes 0.5, as closed loops in units, largest area first. A loop runs clockwise as
 /// seen where it holds what is above 0.5, and against that round a hole. Beyond the frame the field is 0.
-pub(super) fn loops(field: &[f32]) -> Vec<Vec<Point>> {
+pub(super) fn loops(field: &Plane) -> Vec<Vec<Point>> {
     const LEVEL: f32 = 0.5;
     const WIDE: usize = COLUMNS + 2;
     const TALL: usize = ROWS + 2;
     let at = |row: usize, column: usize| {
         let inside = (1..=ROWS).contains(&row) && (1..=COLUMNS).contains(&column);
-        if inside { field[(row - 1) * COLUMNS + column - 1] } else { 0.0 }
+        if inside { field[(column - 1, row - 1)] } else { 0.0 }
     };
     // Edges of the padded grid: 2i is the one from node i to its right, 2i + 1 the one from node i down.
     let across = |row: usize, column: usize| 2 * (row * WIDE + column);
@@ -140,12 +141,12 @@ pub(super) fn simplified(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::face::measure::mask::{CELLS, Mask, centre};
+    use crate::face::measure::mask::{centre, field_of, per_cell};
 
     #[test]
     fn a_ring_gives_a_clockwise_outline_and_a_hole_that_runs_against_it() {
-        let ring = Mask::of(|c| (30.0..80.0).contains(&(centre(c).to_vec2().hypot())));
-        let found = loops(&ring.field());
+        let ring = per_cell(|c| (30.0..80.0).contains(&(centre(c).to_vec2().hypot())));
+        let found = loops(&field_of(&ring));
         assert_eq!(found.len(), 2);
         let disc = |r: f64| std::f64::consts::PI * r * r;
         assert!((area(&found[0]) / disc(80.0) - 1.0).abs() < 0.02, "{}", area(&found[0]));
@@ -157,7 +158,7 @@ mod tests {
 
     #[test]
     fn what_fills_the_frame_has_its_border_as_outline() {
-        let found = loops(&vec![1.0; CELLS]);
+        let found = loops(&per_cell(|_| 1.0));
         assert_eq!(found.len(), 1);
         assert!((area(&found[0]) - VIEW.area()).abs() < 0.02 * VIEW.area());
     }

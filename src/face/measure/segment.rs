@@ -4,11 +4,12 @@
 
 use super::backdrop::Backdrop;
 use super::frame::{Frame, Lab};
-use super::mask::{CELLS, COLUMNS, Mask, ROWS, boxed, cells, centre, column_at, row_at, squared_distances};
+use super::mask::{CELLS, COLUMNS, ROWS, cells, cells_in, centre, column_at, per_cell, row_at};
 use super::mixture::{LEAST, Mixture};
 use super::shape::Shape;
 use crate::face::FeaturePoint as P;
 use crate::geometry::{Point, Vec2};
+use crate::photo::{Mask, Plane};
 
 /// The classes, as they index what is below.
 const BACK: usize = 0;
@@ -19,7 +20,7 @@ const CLASSES: usize = 4;
 
 /// How likely every cell is each of the four, 0 to 1.
 pub(super) struct Regions {
-    classes: [Vec<f32>; CLASSES],
+    classes: [Plane; CLASSES],
     /// What is behind.
     pub backdrop: Backdrop,
     /// The colours of the cells.
@@ -33,17 +34,17 @@ pub(super) struct Regions {
 impl Regions {
     /// How likely each cell is hair.
     pub fn hair(&self) -> &[f32] {
-        &self.classes[HAIR]
+        self.classes[HAIR].pixels()
     }
 
     /// How likely each cell is skin.
     pub fn skin(&self) -> &[f32] {
-        &self.classes[SKIN]
+        self.classes[SKIN].pixels()
     }
 
     /// How likely each cell is what lies behind the head.
     pub fn back(&self) -> &[f32] {
-        &self.classes[BACK]
+        self.classes[BACK].pixels()
     }
 
     /// How sure the labels around a place in units are, 0 to 1.
@@ -52,7 +53,7 @@ impl Regions {
         let (mut sum, mut count) = (0.0_f32, 0.0_f32);
         for r in row.saturating_sub(2)..(row + 3).min(ROWS) {
             for k in column.saturating_sub(2)..(column + 3).min(COLUMNS) {
-                let best = self.classes.iter().fold(0.0_f32, |m, class| m.max(class[r * COLUMNS + k]));
+                let best = self.classes.iter().fold(0.0_f32, |m, class| m.max(class[(k, r)]));
                 sum += (2.0 * best - 1.0).max(0.0);
                 count += 1.0;
             }
@@ -64,26 +65,26 @@ impl Regions {
     pub fn of(frame: &Frame, shape: &Shape) -> Self {
         let (lab, inside) = cells(frame);
         let backdrop = Backdrop::of(&lab, &inside, shape);
-        let face = Mask::polygon(&shape.face);
-        let outside = squared_distances(&face);
-        let within = squared_distances(&face.not());
-        let from_face: Vec<f32> = outside.iter().zip(&within).map(|(o, i)| 2.0 * (o.sqrt() - i.sqrt())).collect();
+        let face = cells_in(&shape.face);
+        let outside = face.squared_distances();
+        let within = face.not().squared_distances();
+        let from_face: Vec<f32> = outside.with(&within, |o, i| 2.0 * (o.sqrt() - i.sqrt())).pixels().to_vec();
         let expected = expected(shape, &from_face);
         let guide = Guide::of(&lab);
         let behind: Vec<f32> = (0..CELLS).map(|c| backdrop.log(lab[c], c)).collect();
 
         let cheeks = cheeks(shape);
-        let tones: Vec<(Lab, f32)> = cheeks.cells().map(|c| (lab[c], 1.0)).collect();
+        let tones: Vec<(Lab, f32)> = cheeks.indices().map(|c| (lab[c], 1.0)).collect();
         let mut skin = skin_of(&tones);
         let mut shaded = shaded(skin_of(&tones));
         // Skin is learned where neither brows nor eyes, lips or beard are.
         let clear: Vec<bool> =
-            (0..CELLS).map(|c| from_face[c] >= 0.0 || cheeks.0[c] || centre(c).y < shape.brows - 9.0).collect();
+            (0..CELLS).map(|c| from_face[c] >= 0.0 || cheeks.pixels()[c] || centre(c).y < shape.brows - 9.0).collect();
         // What lies below the lobes or outside the face is skin in the shade as well.
         let bright: Vec<bool> = (0..CELLS).map(|c| from_face[c] < 0.0 && centre(c).y < shape.lobe).collect();
         let mut hair = first_hair(shape, &lab, &inside, &from_face, &behind, &skin);
         let mut cloth = first_cloth(shape, &lab, &inside);
-        let mut classes: [Vec<f32>; CLASSES] = Default::default();
+        let mut classes: [Plane; CLASSES] = std::array::from_fn(|_| per_cell(|_| 0.0));
         for round in 0..3 {
             let seen: [Option<Vec<f32>>; CLASSES] = [
                 None,
@@ -112,8 +113,8 @@ impl Regions {
             if round < 2 {
                 let learn = |k: usize, parts: usize, test: &dyn Fn(usize) -> bool| {
                     let samples: Vec<(Lab, f32)> = (0..CELLS)
-                        .filter(|c| c % 3 == 0 && inside[*c] && classes[k][*c] > 0.6 && test(*c))
-                        .map(|c| (lab[c], classes[k][c]))
+                        .filter(|c| c % 3 == 0 && inside[*c] && classes[k].pixels()[*c] > 0.6 && test(*c))
+                        .map(|c| (lab[c], classes[k].pixels()[c]))
                         .collect();
                     Mixture::of(&samples, parts, LEAST)
                 };
@@ -146,7 +147,7 @@ fn cheeks(shape: &Shape) -> Mask {
     let wing = |side: P, base: P| Point::new(p[side].x * 1.15, p[base].y);
     let (left, right) = (wing(P::P9_2, P::P9_4), wing(P::P9_1, P::P9_5));
     let up = Vec2::new(0.0, -16.0);
-    Mask::polygon(&[
+    cells_in(&[
         p[P::P3_12] + down,
         p[P::P3_8] + down,
         p[P::P3_11] + down,
@@ -220,12 +221,12 @@ fn first_cloth(shape: &Shape, lab: &[Lab], inside: &[bool]) -> Option<Mixture> {
 fn expected(shape: &Shape, from_face: &[f32]) -> [Vec<f32>; CLASSES] {
     let p = &shape.points;
     let ears = [[p[P::P10_2], p[P::P10_4], p[P::P10_6]], [p[P::P10_1], p[P::P10_3], p[P::P10_5]]]
-        .map(|[top, out, lobe]| Mask::polygon(&ear(top, out, lobe)));
+        .map(|[top, out, lobe]| cells_in(&ear(top, out, lobe)));
     let mut found: [Vec<f32>; CLASSES] = std::array::from_fn(|_| vec![0.0; CELLS]);
     for c in 0..CELLS {
         let at = centre(c);
         let off = from_face[c];
-        let ear = ears.iter().any(|e| e.0[c]);
+        let ear = ears.iter().any(|e| e.pixels()[c]);
         let [back, skin, hair, cloth] = odds(shape, at, off, ear);
         found[BACK][c] = back;
         found[SKIN][c] = skin;
@@ -284,9 +285,9 @@ fn odds(shape: &Shape, at: Point, off: f32, ear: bool) -> [f32; CLASSES] {
 
 /// The lightness that smoothing follows, and its local mean and spread.
 struct Guide {
-    light: Vec<f32>,
-    mean: Vec<f32>,
-    inverse: Vec<f32>,
+    light: Plane,
+    mean: Plane,
+    inverse: Plane,
 }
 
 /// Half a window of the guided filter, in cells.
@@ -296,26 +297,27 @@ impl Guide {
     fn of(lab: &[Lab]) -> Self {
         // Lightness steps below 0.03 are no edges.
         const FLAT: f32 = 0.03 * 0.03;
-        let light: Vec<f32> = lab.iter().map(|c| c[0]).collect();
-        let mean = boxed(&light, REACH);
-        let squares = boxed(&light.iter().map(|v| v * v).collect::<Vec<_>>(), REACH);
-        let inverse = squares.iter().zip(&mean).map(|(s, m)| 1.0 / ((s - m * m).max(0.0) + FLAT)).collect();
+        let light = per_cell(|c| lab[c][0]);
+        let mean = light.boxed(REACH);
+        let squares = light.map(|v| v * v).boxed(REACH);
+        let inverse = squares.with(&mean, |s, m| 1.0 / ((s - m * m).max(0.0) + FLAT));
         Self { light, mean, inverse }
     }
 
     /// `field` smoothed, edges of the lightness kept.
-    fn filter(&self, field: &[f32]) -> Vec<f32> {
-        let mean = boxed(field, REACH);
-        let joint = boxed(&field.iter().zip(&self.light).map(|(f, g)| f * g).collect::<Vec<_>>(), REACH);
-        let slope: Vec<f32> = (0..CELLS).map(|c| (joint[c] - mean[c] * self.mean[c]) * self.inverse[c]).collect();
-        let offset: Vec<f32> = (0..CELLS).map(|c| mean[c] - slope[c] * self.mean[c]).collect();
-        let (slope, offset) = (boxed(&slope, REACH), boxed(&offset, REACH));
-        (0..CELLS).map(|c| slope[c] * self.light[c] + offset[c]).collect()
+    fn filter(&self, field: &Plane) -> Plane {
+        let [light, own, inverse] = [&self.light, &self.mean, &self.inverse].map(Plane::pixels);
+        let (mean, joint) = (field.boxed(REACH), field.with(&self.light, |f, g| f * g).boxed(REACH));
+        let (mean, joint) = (mean.pixels(), joint.pixels());
+        let slope = per_cell(|c| (joint[c] - mean[c] * own[c]) * inverse[c]);
+        let offset = per_cell(|c| mean[c] - slope.pixels()[c] * own[c]);
+        let (slope, offset) = (slope.boxed(REACH), offset.boxed(REACH));
+        per_cell(|c| slope.pixels()[c] * light[c] + offset.pixels()[c])
     }
 }
 
 /// Mean field: every cell agrees with its neighbours on the same side of edges.
-fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Vec<f32>; CLASSES] {
+fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Plane; CLASSES] {
     // How much neighbours weigh against a cell's own colour.
     const AGREE: f32 = 4.0;
     let mut labels = softmax(logits);
@@ -325,7 +327,7 @@ fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Vec<f
         let mut pulled = logits.clone();
         for k in 0..CLASSES - 1 {
             let smooth = guide.filter(&labels[k]);
-            for (c, s) in smooth.into_iter().enumerate() {
+            for (c, s) in smooth.pixels().iter().enumerate() {
                 pulled[k][c] += AGREE * s;
                 rest[c] -= s;
             }
@@ -336,16 +338,13 @@ fn settled(logits: &[Vec<f32>; CLASSES], guide: &Guide, rounds: usize) -> [Vec<f
     labels
 }
 
-fn softmax(logits: &[Vec<f32>; CLASSES]) -> [Vec<f32>; CLASSES] {
-    let mut out: [Vec<f32>; CLASSES] = std::array::from_fn(|_| vec![0.0; CELLS]);
-    for c in 0..CELLS {
+fn softmax(logits: &[Vec<f32>; CLASSES]) -> [Plane; CLASSES] {
+    let shares = per_cell(|c| {
         let four: [f32; CLASSES] = std::array::from_fn(|k| logits[k][c]);
         let most = four.iter().fold(f32::NEG_INFINITY, |m, v| m.max(*v));
         let e = four.map(|v| if v - most < -12.0 { 0.0 } else { (v - most).exp() });
         let sum: f32 = e.iter().sum();
-        for (field, v) in out.iter_mut().zip(e) {
-            field[c] = v / sum;
-        }
-    }
-    out
+        e.map(|v| v / sum)
+    });
+    std::array::from_fn(|k| shares.map(|four| four[k]))
 }

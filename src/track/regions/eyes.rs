@@ -3,7 +3,7 @@
 use super::window::{Window, below};
 use crate::aam::Grey;
 use crate::geometry::{Point, Vec2};
-use crate::photo::{Bounds, Eyeball, Eyeballs, Mask, Neighbours, Region, Regions};
+use crate::photo::{Bounds, Eyeball, Eyeballs, Neighbours, Region, Regions};
 
 /// t₁ = m₁ − 1.3 s₁, where the thesis has s₁ alone (eq. 3.3): around the eyes of a man talking the regions' heights then go
 /// best with how far his lids are open.
@@ -88,12 +88,10 @@ impl Eyes {
     fn grown(&self, grey: &Grey, ball: Eyeball, seeds: &[(usize, usize)], d: f64) -> Option<Eye> {
         let window = window(grey, ball.centre, d)?;
         let b = window.bounds;
-        let mask =
-            Mask { width: b.width(), height: b.height(), bits: window.values().map(|v| v <= self.threshold).collect() };
-        let regions = Regions::of(&mask, Neighbours::Four);
+        let regions = Regions::of(&window.dark(self.threshold), Neighbours::Four);
         let mut hits = vec![0_usize; regions.list.len() + 1];
         for (x, y) in seeds.iter().filter(|(x, y)| b.holds(*x, *y)) {
-            hits[regions.labels[(y - b.y0) * b.width() + x - b.x0] as usize] += 1;
+            hits[regions.labels[(x - b.x0, y - b.y0)] as usize] += 1;
         }
         hits[0] = 0;
         let least = (0.0015 * d * d).max(3.0) as usize;

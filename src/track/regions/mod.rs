@@ -11,12 +11,12 @@ mod window;
 use super::gather::{Instant, Rest, Seen, gathered};
 use super::measure::{Measures, Neutral};
 use super::{Frame, GoOn, Options, Source, Tracked, stopped};
-use crate::aam::{Grey, Similarity};
+use crate::aam::Grey;
 use crate::disk::{Fault, Result, Setting, message};
 use crate::emotion::{Calibration, Choice, Decomposition, MouthMoves};
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Similarity, Vec2};
 use crate::pose::Ratios;
 use eyes::Eyes;
 use mouth::{Mouth, matched};
@@ -103,9 +103,9 @@ impl Watch<'_> {
             .fold(Vec2::ZERO, |sum, ((ball, b), h)| sum + (ball.centre - b.centre()) / (h * frame.scale()) * 0.5);
         let mouth = moves.map_or_else(MouthMoves::default, |m| matched(&m));
         let measures = Measures {
-            place: frame.at,
+            place: frame.origin,
             pupils: frame.scale(),
-            roll: frame.turn().to_degrees(),
+            roll: frame.angle().to_degrees(),
             yaw: 0.0,
             open,
             mouth,
@@ -139,7 +139,7 @@ impl Watch<'_> {
 /// The frame of two eyes: their distance 1, the origin midway.
 fn frame_of(left: Point, right: Point) -> Option<Similarity> {
     let across = right - left;
-    (across.hypot() > 2.0).then(|| Similarity { a: across.x, b: across.y, at: left.midpoint(right) })
+    (across.hypot() > 2.0).then(|| Similarity::spanning(left, right))
 }
 
 /// Tells ratios from six numbers, as eq. 6 does from all points.

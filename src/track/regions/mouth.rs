@@ -5,10 +5,10 @@
 //! that is what grows here.
 
 use super::window::{Window, below};
-use crate::aam::{Grey, Similarity};
+use crate::aam::Grey;
 use crate::emotion::MouthMoves;
-use crate::geometry::{Point, Rect, Vec2};
-use crate::photo::{Mask, Neighbours, Regions};
+use crate::geometry::{Point, Rect, Similarity, Vec2};
+use crate::photo::{Neighbours, Regions};
 use crate::pose::{MouthPose, MouthPreset, MouthShape};
 
 /// How far beside, above and below the neutral mouth it is looked for, in pupil distances: the nose's base stays outside.
@@ -79,19 +79,19 @@ impl Mouth {
     fn grown(&mut self, grey: &Grey, eyes: &Similarity) -> Option<Opening> {
         let window = self.window(grey, eyes)?;
         let b = window.bounds;
-        let bits = window.values().map(|v| v <= self.threshold).collect();
-        let regions = Regions::of(&Mask { width: b.width(), height: b.height(), bits }, Neighbours::Eight);
+        let regions = Regions::of(&window.dark(self.threshold), Neighbours::Eight);
         let mut seeded = vec![false; regions.list.len() + 1];
         for at in &self.seeds {
             let p = eyes.apply(*at);
             let (x, y) = (p.x.round(), p.y.round());
             if x >= 0.0 && y >= 0.0 && b.holds(x as usize, y as usize) {
-                seeded[regions.labels[(y as usize - b.y0) * b.width() + x as usize - b.x0] as usize] = true;
+                seeded[regions.labels[(x as usize - b.x0, y as usize - b.y0)] as usize] = true;
             }
         }
         seeded[0] = false;
         let places: Vec<Point> = regions
             .labels
+            .pixels()
             .iter()
             .enumerate()
             .filter(|(_, label)| seeded[**label as usize])

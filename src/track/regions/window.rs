@@ -2,7 +2,7 @@
 
 use crate::aam::Grey;
 use crate::geometry::Point;
-use crate::photo::Bounds;
+use crate::photo::{Bounds, Mask};
 
 /// A box of a picture that is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -23,10 +23,13 @@ impl<'g> Window<'g> {
     /// Its luma, row by row.
     pub fn values(&self) -> impl Iterator<Item = f32> + Clone + use<'g> {
         let (b, grey) = (self.bounds, self.grey);
-        (b.y0..b.y1).flat_map(move |y| {
-            let row = y * grey.width();
-            grey.pixels()[row + b.x0..row + b.x1].iter().map(|v| f32::from(*v))
-        })
+        (b.y0..b.y1).flat_map(move |y| grey.row(y)[b.x0..b.x1].iter().map(|v| f32::from(*v)))
+    }
+
+    /// The pixels at most as light as `threshold`, in the window's own columns and rows.
+    pub fn dark(&self, threshold: f32) -> Mask {
+        let b = self.bounds;
+        self.grey.crop(b.x0..b.x1, b.y0..b.y1).map(|v| f32::from(*v) <= threshold)
     }
 }
 

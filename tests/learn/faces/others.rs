@@ -1,7 +1,6 @@
 //! Pictures without a face that could be accepted: drawn by chance, torn from photos, or heads turned away.
 
-use lianpu::face::find::Frame;
-use lianpu::geometry::Point;
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::{Photo, Plane};
 
 use crate::chance::Chance;
@@ -15,7 +14,7 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
     let n = side as f64;
     match kind % DRAWN {
         0 => {}
-        1 => plane.values.iter_mut().for_each(|v| *v = (128.0 + 60.0 * chance.normal()).clamp(0.0, 255.0) as f32),
+        1 => plane.pixels_mut().iter_mut().for_each(|v| *v = (128.0 + 60.0 * chance.normal()).clamp(0.0, 255.0) as f32),
         2 => {
             // Blobs, dark and light, often in rows, as eyes and windows are.
             for _ in 0..chance.below(120) + 20 {
@@ -36,7 +35,7 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
                 for x in 0..side {
                     let a = (x as f64 * fx + y as f64 * fy).sin() > 0.0;
                     let b = both && (x as f64 * -fy + y as f64 * fx).sin() > 0.0;
-                    plane.values[y * side + x] = plane.values[y * side + x] * 0.3 + if a != b { 170.0 } else { 20.0 };
+                    plane[(x, y)] = plane[(x, y)] * 0.3 + if a != b { 170.0 } else { 20.0 };
                 }
             }
         }
@@ -47,7 +46,7 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
                 let (x, y) = (chance.between(0.0, n) as usize, chance.between(0.0, n) as usize);
                 let (w, h) = (chance.between(4.0, n / 4.0) as usize, chance.between(4.0, n / 4.0) as usize);
                 for row in y..(y + h).min(side) {
-                    for v in &mut plane.values[row * side + x..row * side + (x + w).min(side)] {
+                    for v in &mut plane.row_mut(row)[x..(x + w).min(side)] {
                         *v = *v * 0.2 + value * 0.8;
                     }
                 }
@@ -55,7 +54,7 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
         }
         5 => {
             // Writing: short strokes in rows.
-            plane.values.iter_mut().for_each(|v| *v = *v * 0.1 + 215.0);
+            plane.pixels_mut().iter_mut().for_each(|v| *v = *v * 0.1 + 215.0);
             let height = chance.between(6.0, 40.0);
             let mut y = height;
             while y + height < n {
@@ -83,7 +82,7 @@ pub fn drawn(kind: usize, side: usize, chance: &mut Chance) -> Plane {
                     let rise: f64 = waves.iter().map(|(f, p, a)| (x as f64 * f + p + f64::from(layer)).sin() * a).sum();
                     let top = (far + f64::from(layer) * n / 10.0 + rise).clamp(0.0, n - 1.0) as usize;
                     for y in top..side {
-                        let v = &mut plane.values[y * side + x];
+                        let v = &mut plane[(x, y)];
                         *v = (f64::from(*v) * 0.25 + shade * 0.75) as f32;
                     }
                 }
@@ -123,32 +122,30 @@ fn clouds(side: usize, fall: f64, chance: &mut Chance) -> Plane {
     let mut plane = Plane::filled(side, side, 128.0);
     let mut size = 4;
     while size < side {
-        let grid = Plane {
-            width: size,
-            height: size,
-            values: (0..size * size)
-                .map(|_| (55.0 * (4.0 / size as f64).powf(fall) * chance.normal()) as f32)
-                .collect(),
-        };
+        let grid = Plane::new(
+            size,
+            size,
+            (0..size * size).map(|_| (55.0 * (4.0 / size as f64).powf(fall) * chance.normal()) as f32).collect(),
+        );
         let step = (size - 1) as f64 / side as f64;
         for y in 0..side {
             for x in 0..side {
-                plane.values[y * side + x] += grid.sample(x as f64 * step, y as f64 * step);
+                plane[(x, y)] += grid.sample(x as f64 * step, y as f64 * step);
             }
         }
         size *= 2;
     }
-    plane.values.iter_mut().for_each(|v| *v = v.clamp(0.0, 255.0));
+    plane.pixels_mut().iter_mut().for_each(|v| *v = v.clamp(0.0, 255.0));
     plane
 }
 
 fn ellipse(plane: &mut Plane, x: f64, y: f64, rx: f64, ry: f64, value: f32) {
-    let (w, h) = (plane.width as f64, plane.height as f64);
+    let (w, h) = (plane.width() as f64, plane.height() as f64);
     for j in (y - ry).max(0.0) as usize..(y + ry).clamp(0.0, h) as usize {
         for i in (x - rx).max(0.0) as usize..(x + rx).clamp(0.0, w) as usize {
             let d = ((i as f64 - x) / rx).powi(2) + ((j as f64 - y) / ry).powi(2);
             if d < 1.0 {
-                plane.values[j * plane.width + i] = value;
+                plane[(i, j)] = value;
             }
         }
     }
@@ -164,21 +161,21 @@ fn line(plane: &mut Plane, x0: f64, y0: f64, x1: f64, y1: f64, wide: f64, value:
 
 /// A plane turned by quarters of a full turn.
 pub fn quarters(plane: &Plane, quarters: usize) -> Plane {
-    let (w, h) = (plane.width, plane.height);
+    let (w, h) = (plane.width(), plane.height());
     let (width, height) = if quarters % 2 == 1 { (h, w) } else { (w, h) };
     let value = |x: usize, y: usize| match quarters % 4 {
-        0 => plane.values[y * w + x],
-        1 => plane.values[(h - 1 - x) * w + y],
-        2 => plane.values[(h - 1 - y) * w + w - 1 - x],
-        _ => plane.values[x * w + w - 1 - y],
+        0 => plane[(x, y)],
+        1 => plane[(y, h - 1 - x)],
+        2 => plane[(w - 1 - x, h - 1 - y)],
+        _ => plane[(w - 1 - y, x)],
     };
     let values = (0..width * height).map(|i| value(i % width, i / width)).collect();
-    Plane { width, height, values }
+    Plane::new(width, height, values)
 }
 
 /// A photo whose tiles have changed places.
 pub fn shuffled(plane: &Plane, tile: usize, chance: &mut Chance) -> Plane {
-    let (nx, ny) = (plane.width / tile, plane.height / tile);
+    let (nx, ny) = (plane.width() / tile, plane.height() / tile);
     let mut order: Vec<usize> = (0..nx * ny).collect();
     for i in (1..order.len()).rev() {
         order.swap(i, chance.below(i + 1));
@@ -188,7 +185,7 @@ pub fn shuffled(plane: &Plane, tile: usize, chance: &mut Chance) -> Plane {
         for x in 0..nx * tile {
             let from = order[y / tile * nx + x / tile];
             let (sx, sy) = (from % nx * tile + x % tile, from / nx * tile + y % tile);
-            out.values[y * nx * tile + x] = plane.values[sy * plane.width + sx];
+            out[(x, y)] = plane[(sx, sy)];
         }
     }
     out
@@ -202,7 +199,7 @@ fn depth(x: f64, y: f64) -> f64 {
 }
 
 /// A photo as if its head were turned by `yaw` radians to a side, and where points of it come to lie.
-pub fn turned(photo: &Photo, face: &Frame, yaw: f64, points: &[Point]) -> (Photo, Vec<Point>) {
+pub fn turned(photo: &Photo, face: &Similarity, yaw: f64, points: &[Point]) -> (Photo, Vec<Point>) {
     let (w, h) = (photo.width(), photo.height());
     let (sin, cos) = yaw.sin_cos();
     // The middle of the face stays about where it is.

@@ -175,10 +175,10 @@ pub fn wall(photo: &Photo) -> Plane {
     let mut open: Vec<(usize, usize)> =
         (0..w).map(|x| (x, 0)).chain((0..h * 2 / 5).flat_map(|y| [(0, y), (w - 1, y)])).collect();
     while let Some((x, y)) = open.pop() {
-        if mask.values[y * w + x] > 0.0 || !alike(x, y) {
+        if mask[(x, y)] > 0.0 || !alike(x, y) {
             continue;
         }
-        mask.values[y * w + x] = 1.0;
+        mask[(x, y)] = 1.0;
         if x > 0 {
             open.push((x - 1, y));
         }
@@ -194,7 +194,7 @@ pub fn wall(photo: &Photo) -> Plane {
     }
     // A little into the face, else a seam of the old wall is left.
     let mut mask = mask.blurred(0.9);
-    mask.values.iter_mut().for_each(|v| *v = (*v * 1.5).min(1.0));
+    mask.pixels_mut().iter_mut().for_each(|v| *v = (*v * 1.5).min(1.0));
     mask
 }
 
@@ -202,7 +202,7 @@ pub fn wall(photo: &Photo) -> Plane {
 pub fn elsewhere(photo: &Photo, chance: &mut Chance) -> Plane {
     let mut plane = Plane::luma(photo);
     let mask = wall(photo);
-    let (w, h) = (plane.width, plane.height);
+    let (w, h) = (plane.width(), plane.height());
     let grey = |c: &mut Chance| if c.share() < 0.6 { c.between(5.0, 110.0) } else { c.between(110.0, 250.0) };
     let (a, b) = (grey(chance), grey(chance));
     let kind = chance.share();
@@ -212,8 +212,8 @@ pub fn elsewhere(photo: &Photo, chance: &mut Chance) -> Plane {
         for x in 0..w {
             let (u, v) = (x as f64 / w as f64 - 0.5, y as f64 / h as f64 - 0.5);
             let t = (u * turn.cos() + v * turn.sin() + 0.5).clamp(0.0, 1.0);
-            let behind = clouds.as_ref().map_or((a + (b - a) * t) as f32, |c| c.values[y.min(w - 1) * w + x]);
-            let (share, value) = (mask.values[y * w + x], &mut plane.values[y * w + x]);
+            let behind = clouds.as_ref().map_or((a + (b - a) * t) as f32, |c| c[(x, y.min(w - 1))]);
+            let (share, value) = (mask[(x, y)], &mut plane[(x, y)]);
             *value += (behind - *value) * share;
         }
     }
@@ -226,13 +226,13 @@ pub fn varied(photo: &Photo, variant: usize, chance: &mut Chance) -> Pyramid {
     if variant > 0 {
         let gamma = chance.between(-0.5, 0.5).exp() as f32;
         let (sx, sy) = (chance.normal() * 0.7, chance.normal() * 0.3);
-        let (w, h) = (plane.width, plane.height);
+        let (w, h) = (plane.width(), plane.height());
         let level = chance.between(0.5, 1.1);
         for y in 0..h {
             for x in 0..w {
                 let (u, v) = (x as f64 / w as f64 - 0.5, y as f64 / h as f64 - 0.5);
                 let light = (level * (4.0 * (sx * u + sy * v)).clamp(-1.2, 1.2).exp()) as f32;
-                let value = &mut plane.values[y * w + x];
+                let value = &mut plane[(x, y)];
                 *value = ((*value / 255.0).powf(gamma) * light * 255.0).min(255.0);
             }
         }
@@ -241,7 +241,7 @@ pub fn varied(photo: &Photo, variant: usize, chance: &mut Chance) -> Pyramid {
         }
         let noise = chance.between(0.0, 5.0) as f32 * f32::from(u8::from(chance.share() < 0.5));
         if noise > 0.0 {
-            plane.values.iter_mut().for_each(|v| *v = (*v + noise * chance.normal() as f32).clamp(0.0, 255.0));
+            plane.pixels_mut().iter_mut().for_each(|v| *v = (*v + noise * chance.normal() as f32).clamp(0.0, 255.0));
         }
     }
     Pyramid::over(plane, 1.0, Point::ORIGIN)

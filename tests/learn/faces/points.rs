@@ -1,11 +1,10 @@
 //! Learning the shapes of faces and the cascade that finds their points.
 
-use lianpu::face::find::Frame;
 use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
 use lianpu::face::find::channels::DESCRIPTOR;
 use lianpu::face::find::shape::ShapeModel;
 use lianpu::face::find::weights::Matrix;
-use lianpu::geometry::{Point, Vec2};
+use lianpu::geometry::{Point, Similarity, Vec2};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -72,7 +71,7 @@ pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel 
     let pick = |points: &[Point]| steady.iter().map(|i| points[*i]).collect::<Vec<_>>();
     let pupils = (scheme.index("3.6"), scheme.index("3.5"));
     let own = |p: &[Point]| {
-        let frame = Frame::of_pupils(p[pupils.0], p[pupils.1]);
+        let frame = Similarity::spanning(p[pupils.0], p[pupils.1]);
         p.iter().map(|q| frame.undo(*q)).collect::<Vec<_>>()
     };
     let mut aligned: Vec<Vec<Point>> = truths.iter().map(|t| own(t)).collect();
@@ -84,7 +83,7 @@ pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel 
             .collect::<Vec<_>>();
         mean = own(&mean);
         for shape in &mut aligned {
-            let frame = Frame::fitting(&pick(&mean), &pick(shape)).expect("points apart");
+            let frame = Similarity::between(&pick(&mean), &pick(shape)).expect("points apart");
             shape.iter_mut().for_each(|p| *p = frame.undo(*p));
         }
     }
@@ -138,16 +137,16 @@ pub fn shapes(truths: &[&[Point]], scheme: &Scheme, count: usize) -> ShapeModel 
 pub struct Sample {
     pub picture: usize,
     pub person: usize,
-    pub frame: Frame,
+    pub frame: Similarity,
     pub shape: Vec<Point>,
     /// The truth in the photo.
     pub truth: Vec<Point>,
 }
 
 /// A frame near the true one, as far off as a detector may be.
-pub fn shaken(model: &ShapeModel, truth: &[Point], chance: &mut Chance) -> Frame {
+pub fn shaken(model: &ShapeModel, truth: &[Point], chance: &mut Chance) -> Similarity {
     let frame = model.frame_of(truth);
-    let by = Frame::new(
+    let by = Similarity::new(
         Point::new(chance.normal() * 0.08, chance.normal() * 0.08),
         (chance.normal() * 0.08).exp(),
         chance.normal() * 0.10,
@@ -178,7 +177,7 @@ pub fn cascade(
     let mut chain = |plans: &Vec<Plan>| {
         let mut samples = samples.clone();
         for sample in &mut samples {
-            let by = Frame::new(
+            let by = Similarity::new(
                 Point::new(chance.normal() * 0.02, chance.normal() * 0.02),
                 (chance.normal() * 0.02).exp(),
                 chance.normal() * 0.02,

@@ -5,8 +5,8 @@ use lianpu::face::find::channels::DESCRIPTOR;
 use lianpu::face::find::looks::Looks;
 use lianpu::face::find::shape::ShapeModel;
 use lianpu::face::find::weights::Matrix;
-use lianpu::face::find::{Candidate, Fit, Frame, Model, Pyramid};
-use lianpu::geometry::Point;
+use lianpu::face::find::{Candidate, Fit, Model, Pyramid};
+use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::Plane;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -43,7 +43,7 @@ pub struct Material {
 impl Material {
     pub fn new(scheme: Scheme, neutral: Vec<Shot>, smiling: Vec<Shot>) -> Self {
         let pupils = (scheme.index("3.6"), scheme.index("3.5"));
-        let frame = |truth: &[Point]| Frame::of_pupils(truth[pupils.0], truth[pupils.1]);
+        let frame = |truth: &[Point]| Similarity::spanning(truth[pupils.0], truth[pupils.1]);
         let faces = (0..neutral.len() * VARIANTS)
             .into_par_iter()
             .map(|i| {
@@ -137,7 +137,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
 
     // Where the smiling faces are: near where the same person's neutral face is, then as the cascade says.
     let begun = std::time::Instant::now();
-    let places: Vec<Option<Frame>> = material
+    let places: Vec<Option<Similarity>> = material
         .smiling
         .iter()
         .zip(&material.smiles)
@@ -179,7 +179,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
         .par_iter()
         .enumerate()
         .flat_map_iter(|(i, scene)| {
-            let near = |c: &Candidate, f: &Frame| {
+            let near = |c: &Candidate, f: &Similarity| {
                 let (a, b) = (&c.fit.frame, f);
                 a.origin.distance(b.origin) < 0.2 * b.scale() && (0.8..1.25).contains(&(a.scale() / b.scale()))
             };
@@ -195,7 +195,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
             if let Some(face) = &scene.face {
                 // Fits from the true place, tilted, and lost ones, which start far off.
                 let mut chance = Chance(i as u64 + 70_000);
-                let by = Frame::new(
+                let by = Similarity::new(
                     Point::new(chance.normal() * 0.07, chance.normal() * 0.07),
                     (chance.normal() * 0.08).exp(),
                     chance.normal() * 0.09,
@@ -207,7 +207,7 @@ pub fn learn(material: &Material, starts: usize, of: impl Fn(usize) -> bool + Sy
                 #[allow(clippy::approx_constant, reason = "the shipped numbers were learned so")]
                 let angle = chance.between(0.0, 6.28);
                 let far = chance.between(0.5, 1.0);
-                let by = Frame::new(
+                let by = Similarity::new(
                     Point::new(angle.cos() * far, angle.sin() * far),
                     (chance.normal() * 0.3).exp(),
                     chance.normal() * 0.2,

@@ -1,9 +1,9 @@
 //! Learning the detector: windows with a face, windows without, and those without that it took for one.
 
+use lianpu::face::find::Pyramid;
 use lianpu::face::find::detector::{BELOW, CELL, Detector, Hit, SCALE, SIDE, WINDOW, cells, window};
 use lianpu::face::find::weights::Matrix;
-use lianpu::face::find::{Frame, Pyramid};
-use lianpu::geometry::Point;
+use lianpu::geometry::{Point, Similarity};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -17,19 +17,19 @@ const OFF: f64 = 0.19;
 /// A picture, and where its face is, if it has one.
 pub struct Scene<'a> {
     pub picture: &'a Pyramid,
-    pub face: Option<Frame>,
+    pub face: Option<Similarity>,
 }
 
 /// The numbers of the window of a face.
-fn sample(picture: &Pyramid, face: &Frame, roll: f64) -> Vec<f32> {
+fn sample(picture: &Pyramid, face: &Similarity, roll: f64) -> Vec<f32> {
     let pixels = (SIDE + 2) * CELL;
     // A level's frame: a pixel of it is `face.scale() / SCALE` photo pixels, turned so that the face leans by `roll`.
     let step = face.scale() / SCALE;
     let half = pixels as f64 / 2.0 - 0.5;
-    let level = Frame::new(Point::ORIGIN, step, face.roll() - roll);
+    let level = Similarity::new(Point::ORIGIN, step, face.angle() - roll);
     let middle = face.apply(Point::new(0.0, BELOW));
-    let corner = middle - level.turn(lianpu::geometry::Vec2::new(half, half));
-    let plane = picture.crop(&Frame { origin: corner, ..level }, pixels, pixels);
+    let corner = middle - level.apply_vec(lianpu::geometry::Vec2::new(half, half));
+    let plane = picture.crop(&Similarity { origin: corner, ..level }, pixels, pixels);
     let mut out = Vec::new();
     window(&cells(&plane), 1, 1, &mut out);
     out
@@ -94,8 +94,8 @@ pub fn logistic(yes: &[Vec<f32>], no: &[Vec<f32>], penalty: f32, from: Option<(&
 }
 
 /// Whether a hit lies on a face, or so near that it is no example of anything else.
-pub fn near(hit: &Hit, face: &Frame) -> bool {
-    let middle = |f: &Frame| f.apply(Point::new(0.0, BELOW));
+pub fn near(hit: &Hit, face: &Similarity) -> bool {
+    let middle = |f: &Similarity| f.apply(Point::new(0.0, BELOW));
     let size = hit.frame.scale() / face.scale();
     middle(&hit.frame).distance(middle(face)) < 0.45 * face.scale() && (0.6..1.6).contains(&size)
 }
@@ -114,7 +114,7 @@ pub fn learn(scenes: &[Scene], rounds: usize) -> Detector {
             .flat_map_iter(|(i, picture, face)| {
                 let mut chance = Chance(i as u64 * 31 + 3);
                 (0..6).map(move |_| {
-                    let by = Frame::new(
+                    let by = Similarity::new(
                         Point::new(chance.between(-0.09, 0.09), chance.between(-0.09, 0.09)),
                         chance.between(-0.11, 0.11).exp(),
                         chance.between(-OFF, OFF),
@@ -136,7 +136,7 @@ pub fn learn(scenes: &[Scene], rounds: usize) -> Detector {
             let (w, h) = s.picture.size();
             (0..12).filter_map(move |_| {
                 let scale = chance.between(24f64.ln(), (0.4 * w.min(h)).max(30.0).ln()).exp();
-                let frame = Frame::new(Point::new(chance.between(0.0, w), chance.between(0.0, h)), scale, 0.0);
+                let frame = Similarity::new(Point::new(chance.between(0.0, w), chance.between(0.0, h)), scale, 0.0);
                 let hit = Hit { frame, score: 0.0, template: 1 };
                 (!s.face.is_some_and(|f| near(&hit, &f))).then(|| sample(s.picture, &frame, 0.0))
             })

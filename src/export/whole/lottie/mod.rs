@@ -100,8 +100,8 @@ impl Film {
             let id = self.assets.len();
             self.assets.push(format!(
                 "{{\"id\":\"i{id}\",\"w\":{},\"h\":{},\"u\":\"\",\"e\":1,\"p\":\"{}\"}}",
-                pixels.0.width(),
-                pixels.0.height(),
+                pixels.0.picture().width(),
+                pixels.0.picture().height(),
                 data_uri_of(&pixels.0)
             ));
             let [a, b, c, d, e, f] = place.map(|v| v as f64 / 1e5 / 8.0);
