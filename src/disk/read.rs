@@ -1,12 +1,11 @@
 //! Text as it comes in: bounded, UTF-8, NFC, without control characters.
 
-use std::fs::{self, File};
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use unicode_normalization::UnicodeNormalization;
 
-use super::{Fault, Result};
+use super::{Fault, Result, door};
 
 /// The largest text file that is read. A lesson of an hour, phones included, is below 2 MB.
 pub const MAX_TEXT_BYTES: u64 = 64 << 20;
@@ -16,7 +15,7 @@ pub const MAX_TEXT_BYTES: u64 = 64 << 20;
 /// # Errors
 /// When it cannot be read or is longer than `limit`.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
-    let file = File::open(path).map_err(|e| Fault::io("cannot open it", path, e))?;
+    let file = door::open(path).map_err(|e| cannot_open(path, e))?;
     let mut bytes = Vec::new();
     file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| Fault::io("cannot read it", path, e))?;
     if bytes.len() as u64 > limit {
@@ -25,6 +24,16 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
             .help("files of this kind are far smaller; is it the right one?"));
     }
     Ok(bytes)
+}
+
+/// A file that cannot be opened; where that is not the system's word, with what to do.
+fn cannot_open(path: &Path, error: std::io::Error) -> Fault {
+    let help = match error.kind() {
+        ErrorKind::PermissionDenied if error.raw_os_error().is_none() => "copy the file into the project instead",
+        ErrorKind::InvalidInput => "save what comes out of it as a file and give that",
+        _ => return Fault::io("cannot open it", path, error),
+    };
+    Fault::io("cannot open it", path, error).help(help)
 }
 
 /// The text of a UTF-8 file, with or without a byte order mark, made [`clean`].
@@ -80,11 +89,13 @@ fn is_none(c: char) -> bool {
     c & 0xFFFE == 0xFFFE || (0xFDD0..=0xFDEF).contains(&c)
 }
 
-/// What an ordinary file holds; none where there is none, or where something else is that could keep its reader waiting.
+/// The largest file that is compared with what is to take its place.
+const MAX_OLD_BYTES: u64 = 1 << 30;
+
+/// The bytes of a regular file of at most 1 GiB; none where there is no such file.
 #[must_use]
 pub fn read_old(path: &Path) -> Option<Vec<u8>> {
-    fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
-    fs::read(path).ok()
+    read_bytes(path, MAX_OLD_BYTES).ok()
 }
 
 #[cfg(test)]
@@ -109,7 +120,7 @@ mod tests {
     fn text_that_is_not_utf8_names_the_line() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("big5.txt");
-        fs::write(&path, b"one\ntwo\n\xB1\x7A").unwrap();
+        std::fs::write(&path, b"one\ntwo\n\xB1\x7A").unwrap();
         let fault = read_text(&path).unwrap_err();
         assert_eq!(fault.line_number(), Some(3));
     }

@@ -6,7 +6,9 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempPath};
+
+use super::door;
 
 /// What their names begin with.
 const MARK: &str = ".lianpu-";
@@ -26,28 +28,30 @@ pub fn temporary_prefix() -> String {
 /// # Errors
 /// When the folder is not there or cannot be written to.
 pub fn temporary_in(folder: &Path, ending: &str) -> std::io::Result<NamedTempFile> {
-    let prefix = temporary_prefix();
-    let mut builder = Builder::new();
-    builder.prefix(&prefix).suffix(ending);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
+    Builder::new().prefix(&temporary_prefix()).suffix(ending).make_in(folder, door::make)
+}
+
+/// Gives a temporary file its name, in place of a file that has it.
+///
+/// # Errors
+/// When the name cannot be given; then the temporary file is removed.
+pub fn settle(temporary: TempPath, path: &Path) -> std::io::Result<()> {
+    door::rename(&temporary, path)?;
+    // Where it was there is nothing now.
+    let _ = temporary.keep();
+    Ok(())
 }
 
 /// Removes what programs that were killed have left in a folder. Files of those that still run are not touched, here or on
 /// another machine that shares the folder.
 pub fn clear_temporaries(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let Some(rest) = name.to_str().and_then(|n| n.strip_prefix(MARK)) else { continue };
-        let is_file = entry.file_type().is_ok_and(|t| t.is_file());
-        if is_file && (is_dead(rest) || is_forgotten(&entry)) {
+    let Ok(paths) = door::list(folder) else { return };
+    for path in paths {
+        let Some(rest) = path.file_name().and_then(|n| n.to_str()?.strip_prefix(MARK)) else { continue };
+        let Ok(about) = path.symlink_metadata() else { continue };
+        if about.is_file() && (is_dead(rest) || is_forgotten(&about)) {
             // Whoever else clears the same folder may have been faster.
-            let _ = fs::remove_file(entry.path());
+            let _ = door::remove(&path);
         }
     }
 }
@@ -60,9 +64,8 @@ fn is_dead(rest: &str) -> bool {
     machine_of == machine() && machine_of != UNKNOWN && !Path::new("/proc").join(process.to_string()).exists()
 }
 
-fn is_forgotten(entry: &fs::DirEntry) -> bool {
-    let changed = entry.metadata().and_then(|m| m.modified());
-    changed.is_ok_and(|at| at.elapsed().is_ok_and(|age| age > FORGOTTEN))
+fn is_forgotten(about: &fs::Metadata) -> bool {
+    about.modified().is_ok_and(|at| at.elapsed().is_ok_and(|age| age > FORGOTTEN))
 }
 
 /// Where processes cannot be told.

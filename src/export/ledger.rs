@@ -3,14 +3,14 @@
 //! It becomes a [`Manifest`] when the export is done, and not before. Until then files that cannot tell themselves what
 //! they were made from are noted in a draft of it, so that an export that was killed goes on where it was.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::Shard;
 use super::asked::within;
 use super::manifest::{Asked, Entry, Manifest};
 use super::merge::parts_in;
-use crate::disk::{Fault, Result, read_old};
+use crate::disk::{self, Fault, Result, read_old};
 
 /// What a running export knows of its files.
 #[derive(Debug)]
@@ -68,7 +68,7 @@ impl Ledger {
         }
         let mut aside = path.as_os_str().to_owned();
         aside.push("~");
-        fs::rename(path, &aside).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))?;
+        disk::rename(path, Path::new(&aside)).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))?;
         Ok(Some(format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew")))
     }
 
@@ -92,14 +92,14 @@ impl Ledger {
     pub fn begin(&self) {
         let path = self.folder.join(Manifest::name(self.shard));
         if self.shard != Shard::WHOLE && Manifest::read(&path).is_ok_and(|m| m.clips != self.clips) {
-            let _ = fs::remove_file(path);
+            let _ = disk::remove(&path);
         }
     }
 
     /// Leaves a part undone: without its manifest it is known not to be.
     pub fn give_up(self) {
         if self.shard != Shard::WHOLE {
-            let _ = fs::remove_file(self.folder.join(Manifest::name(self.shard)));
+            let _ = disk::remove(&self.folder.join(Manifest::name(self.shard)));
         }
     }
 
@@ -110,7 +110,7 @@ impl Ledger {
     pub fn close(mut self) -> Result<PathBuf> {
         let clips = std::mem::take(&mut self.clips);
         let mut manifest = Manifest::new(self.shard, clips, std::mem::take(&mut self.files));
-        fs::create_dir_all(&self.folder).map_err(|e| Fault::io("cannot make the folder", &self.folder, e))?;
+        disk::make_folder(&self.folder).map_err(|e| Fault::io("cannot make the folder", &self.folder, e))?;
         // Several exports into one folder may end at once: each adds to what the others have.
         let _lock = self.lock();
         if self.shard == Shard::WHOLE
@@ -136,14 +136,14 @@ impl Ledger {
         }
         if before > 0 {
             // Nothing depends on its going.
-            let _ = fs::remove_file(self.folder.join(name));
+            let _ = disk::remove(&self.folder.join(name));
         }
         Ok(())
     }
 
     /// Waits until no other export changes the folder's manifests. Where folders cannot be locked nobody waits.
     fn lock(&self) -> Option<File> {
-        let folder = File::open(&self.folder).ok()?;
+        let folder = disk::open_folder(&self.folder).ok()?;
         folder.lock().ok()?;
         Some(folder)
     }
@@ -160,7 +160,7 @@ fn remove_superseded(folder: &Path, now: &Manifest) {
             _ => other,
         };
         if is_void {
-            let _ = fs::remove_file(path);
+            let _ = disk::remove(&path);
         }
     }
 }

@@ -10,7 +10,7 @@ use super::asked::within;
 use super::digests::Digests;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Entry, Format, Job};
-use crate::disk::{Fault, Result, read_old, replace, write_whole};
+use crate::disk::{self, Fault, Result, read_old, replace, write_whole};
 use crate::drawing::Drawing;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
 
@@ -73,8 +73,7 @@ pub fn run(
         if job.formats.is_empty() || job.frames.is_empty() {
             continue;
         }
-        std::fs::create_dir_all(&job.folder)
-            .map_err(|e| elsewhere(Fault::io("cannot make the folder", &job.folder, e)))?;
+        disk::make_folder(&job.folder).map_err(|e| elsewhere(Fault::io("cannot make the folder", &job.folder, e)))?;
         files.extend(pool.install(|| write_frames(job, &tally, progress, stop))?);
     }
     report.written += tally.written.load(Ordering::Relaxed);
@@ -311,14 +310,14 @@ fn key_of(drawing: &Drawing, size: [u32; 2]) -> String {
 /// Removes frames beyond the clip's end that an earlier export left: a video made of the folder would show them.
 /// Only numbered files that are our own are touched.
 fn remove_left_over(job: &Job) -> u32 {
-    let Ok(entries) = std::fs::read_dir(&job.folder) else { return 0 };
+    let Ok(paths) = disk::list(&job.folder) else { return 0 };
     let mut removed = 0;
-    for path in entries.flatten().map(|e| e.path()) {
+    for path in paths {
         let number = path.file_stem().and_then(|s| s.to_str()).filter(|s| s.len() == 6).and_then(|s| s.parse().ok());
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let beyond = number.is_some_and(|n: u32| n >= job.count);
         let asked = job.formats.iter().any(|f| f.name() == extension);
-        if beyond && asked && is_our_own(&path, extension) && std::fs::remove_file(&path).is_ok() {
+        if beyond && asked && is_our_own(&path, extension) && disk::remove(&path).is_ok() {
             removed += 1;
         }
     }

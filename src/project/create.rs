@@ -8,7 +8,7 @@ use super::clip::SOUNDS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::video::FRAMES_FPS;
 use super::{AlignJob, Lesson, Method, TrackJob};
-use crate::disk::{Fault, Result, clean_line, plain_name, read_bytes, read_text, write_whole};
+use crate::disk::{Fault, Result, clean_line, list, make_folder, plain_name, read_bytes, read_text, write_whole};
 use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
@@ -77,7 +77,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
             .of_the_call());
     };
     plain_name(&name).map_err(Fault::of_the_call)?;
-    let taken = root.symlink_metadata().is_ok() && std::fs::read_dir(root).map_or(true, |mut d| d.next().is_some());
+    let taken = root.symlink_metadata().is_ok() && list(root).map_or(true, |there| !there.is_empty());
     if taken {
         return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
     }
@@ -121,7 +121,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
         .iter()
         .map(|(e, path)| Ok((*e, Brought::read(path)?)))
         .collect::<Result<Vec<(Emotion, Brought)>>>()?;
-    std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
+    make_folder(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     let draft = tempfile::Builder::new()
         .prefix(".lianpu-new-")
         .tempdir_in(parent)
@@ -284,7 +284,7 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
 fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<String>> {
     let mut notes = Vec::new();
     let folder = root.join("clips").join(&clip.name);
-    std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
+    make_folder(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
     if let Some(path) = &new.speech {
         // What it is its content says; its name must be one that is found again.
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();

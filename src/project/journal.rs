@@ -1,11 +1,11 @@
 //! The journal: every change since the last save, a line of JSON each, so that a lost connection loses nothing.
 
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 
 use super::Change;
-use crate::disk::{Fault, Result, read_bytes, write_whole};
+use crate::disk::{Fault, Result, append, read_bytes, write_whole};
 
 /// The largest journal that is read: hundreds of changes to all the times of an hour.
 const LARGEST: u64 = 2 << 30;
@@ -30,8 +30,7 @@ impl Journal {
     pub(super) fn start(path: &Path, holding: &[Change]) -> Result<Self> {
         let text: String = holding.iter().map(line_of).collect();
         write_whole(path, text.as_bytes())?;
-        let file =
-            OpenOptions::new().append(true).open(path).map_err(|e| Fault::io("cannot open the journal", path, e))?;
+        let file = append(path).map_err(|e| Fault::io("cannot open the journal", path, e))?;
         Ok(Self { file, path: path.to_owned() })
     }
 

@@ -7,7 +7,7 @@ use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::{Change, Clip, LessonFace};
-use crate::disk::{Fault, Lock, Result, nearest};
+use crate::disk::{self, Fault, Lock, Result, confine, nearest};
 use crate::figure::Figure;
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
@@ -94,7 +94,8 @@ impl Lesson {
             lesson.lost = left.len() - lesson.recovered;
             if lesson.lost > 0 {
                 // Nobody can tell which of the two it is, so nothing is thrown away.
-                std::fs::copy(&path, own.join(LOST)).map_err(|e| Fault::io("cannot keep the journal", &path, e))?;
+                let _ = disk::remove(&own.join(LOST));
+                disk::copy(&path, &own.join(LOST)).map_err(|e| Fault::io("cannot keep the journal", &path, e))?;
             }
             lesson.journal = Some(Journal::start(&path, lesson.history.done())?);
         }
@@ -273,12 +274,13 @@ const ELSEWHERE: &str = "it is open in another window";
 /// When the folder cannot be listed.
 pub fn projects_in(folder: &Path) -> Result<Vec<PathBuf>> {
     if folder.join(MANIFEST).is_file() {
+        confine(folder);
         return Ok(vec![folder.to_owned()]);
     }
-    let entries = std::fs::read_dir(folder).map_err(|e| {
+    let paths = disk::list(folder).map_err(|e| {
         Fault::io("cannot list the folder", folder, e).help("give a folder that holds projects, or a project")
     })?;
-    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(|p| p.join(MANIFEST).is_file()).collect();
-    found.sort();
+    let found: Vec<PathBuf> = paths.into_iter().filter(|p| p.join(MANIFEST).is_file()).collect();
+    found.iter().for_each(|project| confine(project));
     Ok(found)
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Change, Clip, Edit, Lesson, LessonFace};
-use crate::disk::{Fault, Result, write_whole};
+use crate::disk::{self, Fault, Result, read_old, write_whole};
 use crate::emotion::{Kept, Marks};
 use crate::face::Face;
 use crate::pose::Emotion;
@@ -129,7 +129,7 @@ impl LessonFace {
             Some(face) => write_changed(path, &face.to_toml(), &mut self.seen)?,
             // Only what this program wrote, or has read as it is.
             None if self.seen.is_some() && checksum(&path) == self.seen => {
-                std::fs::remove_file(&path).map_err(|e| Fault::io("cannot remove it", &path, e))?;
+                disk::remove(&path).map_err(|e| Fault::io("cannot remove it", &path, e))?;
                 self.seen = None;
                 Some(path)
             }
@@ -198,12 +198,12 @@ impl Clip {
 }
 
 pub(super) fn remove(path: &Path) -> Result<()> {
-    std::fs::remove_file(path).map_err(|e| Fault::io("cannot remove it", path, e))
+    disk::remove(path).map_err(|e| Fault::io("cannot remove it", path, e))
 }
 
 /// What a file looks like; none where there is none.
 pub(super) fn checksum(path: &Path) -> Option<u32> {
-    std::fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes))
+    read_old(path).map(|bytes| crc32fast::hash(&bytes))
 }
 
 /// Makes sure that nobody else has changed a file since it was read or written last.

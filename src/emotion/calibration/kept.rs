@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
-use crate::disk::{Fault, Result, write_whole};
+use crate::disk::{Fault, Result, read_old, write_whole};
 use crate::photo::sha256;
 use crate::pose::Emotion;
 
@@ -118,7 +118,7 @@ impl Kept {
         let mut written = Vec::new();
         let mut put = |name: String, bytes: &[u8]| -> Result<()> {
             let path = folder.join(name);
-            if std::fs::read(&path).is_ok_and(|old| old == bytes) {
+            if read_old(&path).is_some_and(|old| old == bytes) {
                 return Ok(());
             }
             write_whole(&path, bytes)?;

@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, read_old, replace};
 use crate::speech::Sound;
 
 /// Bits a second of what is encoded: speech through one channel is clean from here on.
@@ -38,7 +38,7 @@ pub(super) fn own(path: &Path) -> Option<Encoded> {
         "m4a" => ("audio/mp4", "m4a"),
         _ => return None,
     };
-    Some(Encoded { mime, extension, bytes: std::fs::read(path).ok()? })
+    Some(Encoded { mime, extension, bytes: read_old(path)? })
 }
 
 /// The WAV file of a sound: 16 bits, one channel, its own rate.
@@ -95,7 +95,7 @@ pub(super) fn encoded(sound: &Sound, encoder: Option<&Path>) -> (Encoded, Option
 fn mp3(sound: &Sound, program: &Path) -> Result<Vec<u8>> {
     let folder = tempfile::tempdir().map_err(|e| Fault::new(format!("no temporary folder: {e}")))?;
     let (from, to) = (folder.path().join("sound.wav"), folder.path().join("sound.mp3"));
-    std::fs::write(&from, wav(sound)?).map_err(|e| Fault::io("cannot write it", &from, e))?;
+    replace(&from, &wav(sound)?)?;
     let rate = sound.rate.min(RATE).to_string();
     let ran = Command::new(program)
         .args(["-nostdin", "-v", "error", "-y", "-i"])
@@ -114,5 +114,5 @@ fn mp3(sound: &Sound, program: &Path) -> Result<Vec<u8>> {
     if !ran.status.success() {
         return Err(failed());
     }
-    std::fs::read(&to).ok().filter(|bytes| !bytes.is_empty()).ok_or_else(failed)
+    read_old(&to).filter(|bytes| !bytes.is_empty()).ok_or_else(failed)
 }

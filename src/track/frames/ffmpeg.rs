@@ -10,7 +10,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::thread::JoinHandle;
 
 use super::y4m::Y4m;
-use crate::disk::{Fault, Result, clean_line, temporary_in};
+use crate::disk::{Fault, Result, clean_line, open, settle, temporary_in};
 
 /// The program, found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,7 +78,7 @@ impl Ffmpeg {
     }
 
     fn start(&self, video: &Path, words: Vec<OsString>) -> Result<Running> {
-        std::fs::File::open(video).map_err(|e| Fault::io("cannot open the video", video, e))?;
+        open(video).map_err(|e| Fault::io("cannot open the video", video, e))?;
         let mut command = Command::new(&self.program);
         command.args(words).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().map_err(|e| Fault::io("cannot start ffmpeg", &self.program, e))?;
@@ -201,7 +201,7 @@ pub fn sound_of(video: &Path, out: &Path) -> Result<()> {
     std::io::copy(&mut output, &mut file).map_err(|e| Fault::io("cannot write it", out, e))?;
     running.ended()?;
     part.as_file().sync_all().map_err(|e| Fault::io("cannot write it", out, e))?;
-    part.persist(out).map_err(|e| Fault::io("cannot write it", out, e.error))?;
+    settle(part.into_temp_path(), out).map_err(|e| Fault::io("cannot write it", out, e))?;
     Ok(())
 }
 
