@@ -10,7 +10,7 @@ use super::Shard;
 use super::asked::within;
 use super::manifest::{Asked, Entry, Manifest};
 use super::merge::parts_in;
-use crate::disk::{self, Fault, Result, read_old};
+use crate::disk::{self, Fault, Result};
 
 /// What a running export knows of its files.
 #[derive(Debug)]
@@ -55,21 +55,43 @@ impl Ledger {
         holds.entry(&name).cloned()
     }
 
-    /// Before a file is written anew: where somebody has changed it since an earlier export, theirs is kept beside it under
-    /// the same name with a `~`. Returns what the author should know of it. `new` is what will be written, where that is
-    /// known.
+    /// Before a file is written anew: where no earlier export wrote what is there, or somebody has changed it since, that is
+    /// renamed to the same name with a `~`. Returns a note for the author. `new` is what will be written, where it is known.
     pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<Option<String>> {
         let name = within(&self.folder, path);
-        let wrote: Vec<&Entry> = self.before.iter().filter_map(|m| m.entry(&name)).collect();
-        let Some(old) = read_old(path).filter(|old| new.is_none_or(|new| new != old)) else { return Ok(None) };
-        let now = Entry::of(name.clone(), &old);
-        if wrote.is_empty() || wrote.iter().any(|w| w.sha256 == now.sha256) {
+        let parts = parts_in(&self.folder).unwrap_or_default();
+        let earlier = self.before.iter().chain(parts.iter().map(|(_, part)| part));
+        let wrote: Vec<&Entry> = earlier.filter_map(|m| m.entry(&name)).collect();
+        // A folder in the way stays, and writing says so.
+        if path.symlink_metadata().map_or(true, |there| there.is_dir()) {
             return Ok(None);
         }
-        let mut aside = path.as_os_str().to_owned();
-        aside.push("~");
-        disk::rename(path, Path::new(&aside)).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))?;
-        Ok(Some(format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew")))
+        // What cannot be read is nothing that was exported.
+        if let Ok(now) = Entry::read(&self.folder, name.clone()) {
+            let is_new = new.is_some_and(|new| Entry::of(String::new(), new).sha256 == now.sha256);
+            if is_new || wrote.iter().any(|w| w.sha256 == now.sha256) {
+                return Ok(None);
+            }
+        }
+        put_aside(path)?;
+        Ok(Some(match wrote.is_empty() {
+            false => {
+                format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew")
+            }
+            true => format!("{name} was there and is of no export; it is kept as {name}~"),
+        }))
+    }
+
+    /// Before anything is written: what has the manifest's name and is none is set aside as a file is.
+    pub(super) fn set_manifest_aside(&self) -> Result<Option<String>> {
+        let name = Manifest::name(self.shard);
+        let path = self.folder.join(&name);
+        let is_there = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
+        if !is_there || Manifest::read(&path).is_ok() {
+            return Ok(None);
+        }
+        put_aside(&path)?;
+        Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}~")))
     }
 
     /// Notes a file that was made from what `key` tells.
@@ -147,6 +169,13 @@ impl Ledger {
         folder.lock().ok()?;
         Some(folder)
     }
+}
+
+/// Renames a file to its name with a `~`.
+pub(super) fn put_aside(path: &Path) -> Result<()> {
+    let mut aside = path.as_os_str().to_owned();
+    aside.push("~");
+    disk::rename(path, Path::new(&aside)).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))
 }
 
 /// Manifests of parts that this one makes void: those of another division where this is a part, and those whose every file

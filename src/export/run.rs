@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::asked::within;
 use super::digests::Digests;
+use super::ledger::put_aside;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Entry, Format, Job};
 use crate::disk::{self, Fault, Result, read_old, replace, write_whole};
@@ -30,6 +31,8 @@ pub struct Report {
     pub written: u32,
     /// Files that were there already and right.
     pub kept: u32,
+    /// Files of others that had the names of frames, and have a `~` behind them now.
+    pub aside: u32,
     /// Frames of an earlier, longer export that were removed.
     pub removed: u32,
     /// Bytes written.
@@ -77,6 +80,7 @@ pub fn run(
         files.extend(pool.install(|| write_frames(job, &tally, progress, stop))?);
     }
     report.written += tally.written.load(Ordering::Relaxed);
+    report.aside += tally.aside.load(Ordering::Relaxed);
     report.kept += tally.kept.load(Ordering::Relaxed);
     report.bytes += tally.bytes.load(Ordering::Relaxed);
     report.stopped = stop.load(Ordering::Relaxed) && tally.done.load(Ordering::Relaxed) < tally.of;
@@ -89,10 +93,22 @@ struct Tally {
     of: u32,
     written: AtomicU32,
     kept: AtomicU32,
+    aside: AtomicU32,
     bytes: AtomicU64,
 }
 
 impl Tally {
+    /// Sets aside what is where a frame goes and is no frame of this program.
+    fn make_room(&self, path: &Path) -> Result<()> {
+        let is_taken = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        if is_taken && !is_our_own(path, extension) {
+            put_aside(path)?;
+            self.aside.fetch_add(1, Ordering::Relaxed);
+        }
+        Ok(())
+    }
+
     fn step(&self, progress: &(dyn Fn(Progress) + Sync)) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         progress(Progress { done, of: self.of });
@@ -117,6 +133,7 @@ impl Tally {
         }
         let bytes = bytes()?;
         let bytes = bytes.as_ref();
+        self.make_room(path)?;
         replace(path, bytes).map_err(elsewhere)?;
         self.written.fetch_add(1, Ordering::Relaxed);
         self.bytes.fetch_add(bytes.len() as u64, Ordering::Relaxed);
@@ -236,6 +253,7 @@ fn write_pngs(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), st
             }
             None => {
                 let first = job.path_of(frames.first[*like], Format::Png);
+                tally.make_room(&path)?;
                 let bytes = repeat(&first, &path, job.dedupe).map_err(elsewhere)?;
                 tally.written.fetch_add(1, Ordering::Relaxed);
                 tally.bytes.fetch_add(bytes, Ordering::Relaxed);
