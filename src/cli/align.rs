@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::output_fault;
+use super::print::{self, note, say, tell};
 use super::times::{Row, json, seconds, table};
-use crate::disk::{Fault, Result, read_text, write_whole};
+use crate::disk::{Fault, Result, read_text, write_output};
 use crate::project::{AlignJob, Clip, Lesson, tiers_of};
 use crate::script::{self, Syllable, System};
 use crate::speech::{self, Alignment, Note, Sound, Take};
@@ -77,7 +78,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let found = speech::align(&[take]).pop().unwrap_or_else(|| Err(Fault::new("nothing was found")));
     let found = found.map_err(|f| f.at(speech))?;
     for note in notes(&found) {
-        eprintln!("note: {note}");
+        print::note(note);
     }
     let rows: Vec<Row> = syllables.iter().zip(&found.syllables).map(|(s, f)| Row::found(s, f)).collect();
     let timing = || tiers(&text, &syllables, &found, sound.duration());
@@ -118,7 +119,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         None => wanted(&lesson),
     };
     if wanted.is_empty() && spoken_clips(&lesson).is_empty() {
-        eprintln!("note: no clip has both a recording and a script, so there is nothing to align");
+        note("no clip has both a recording and a script, so there is nothing to align");
     }
     let mut failed: Vec<(String, Fault)> = Vec::new();
     let mut aligned = Vec::new();
@@ -130,7 +131,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         match found {
             Ok(found) => {
                 for note in notes(&found) {
-                    eprintln!("note: clip {name}: {note}");
+                    print::note(format_args!("clip {name}: {note}"));
                 }
                 match lesson.aligned(number, &found) {
                     Some(change) if args.out.is_none() => lesson.change(change)?,
@@ -157,14 +158,14 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         give(&rows, timing, args, out)?;
     } else {
         for number in aligned {
-            writeln!(out, "{}", summary(&lesson.clips[number])).map_err(output_fault)?;
+            say(out, summary(&lesson.clips[number]))?;
         }
     }
     match failed.pop() {
         None => Ok(()),
         Some((name, fault)) => {
             for (name, fault) in failed {
-                eprintln!("error: clip {name}: {fault}");
+                tell(format_args!("error: clip {name}: {fault}"));
             }
             Err(fault.at(lesson.root.join("clips").join(name)))
         }
@@ -180,9 +181,9 @@ fn wanted(lesson: &Lesson) -> Vec<usize> {
         if clip.wants_alignment() {
             wanted.push(number);
         } else if clip.score.aligned.is_none() {
-            eprintln!("note: clip {name} has times of its own, which stay; `--clip {name}` finds them anew");
+            note(format_args!("clip {name} has times of its own, which stay; `--clip {name}` finds them anew"));
         } else if clip.score.pins.is_empty() {
-            eprintln!("clip {name}: neither its sound nor its script has changed, its times stay");
+            tell(format_args!("clip {name}: neither its sound nor its script has changed, its times stay"));
         } else {
             // What an author has set since moves what lies between.
             wanted.push(number);
@@ -211,7 +212,7 @@ fn summary(clip: &Clip) -> String {
 /// Says what was wrong with a recording's file and is wrong with its sound.
 fn warn(sound: &Sound) {
     for warning in sound.warnings.iter().chain(&sound.quality().remarks()) {
-        eprintln!("note: {warning}");
+        note(warning);
     }
 }
 
@@ -258,7 +259,7 @@ fn give(rows: &[Row], timing: impl Fn() -> Timing, args: &Args, out: &mut dyn Wr
         table(rows)
     };
     match &args.out {
-        Some(path) => write_whole(path, text.as_bytes()),
+        Some(path) => write_output(path, text.as_bytes()),
         None => out.write_all(text.as_bytes()).map_err(output_fault),
     }
 }
@@ -295,7 +296,7 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
         marks.iter().map(|m| format!("{:8.3} {:8.3}  {}\n", m.start, m.end, m.kind)).collect()
     };
     match &args.out {
-        Some(path) => write_whole(path, text.as_bytes()),
+        Some(path) => write_output(path, text.as_bytes()),
         None => out.write_all(text.as_bytes()).map_err(output_fault),
     }
 }
@@ -309,9 +310,9 @@ pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
         match found {
             Ok(found) => {
                 lesson.take_alignment(number, &found);
-                eprintln!("note: the times of clip {name} were found in its sound; `lianpu align` keeps them");
+                note(format_args!("the times of clip {name} were found in its sound; `lianpu align` keeps them"));
             }
-            Err(fault) => eprintln!("note: the times of clip {name} are guessed: {fault}"),
+            Err(fault) => note(format_args!("the times of clip {name} are guessed: {fault}")),
         }
     }
     super::track::find_missing(lesson, clips);

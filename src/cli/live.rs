@@ -3,6 +3,7 @@
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
+use super::print::{self, note};
 use crate::disk::{Fault, Result};
 use crate::emotion::Kept;
 use crate::project::Lesson;
@@ -16,12 +17,12 @@ pub(super) fn run(model: &Path, options: &Options, out: &mut dyn Write) -> Resul
     let folder = face_folder(model)?;
     let (kept, notes) = Kept::of(&folder)?;
     for note in notes {
-        eprintln!("note: {note}");
+        print::note(note);
     }
     let input = BufReader::with_capacity(1 << 20, std::io::stdin().lock());
     let (count, lost) = relay(input, out, &kept.made.model, &kept.made.calibration, options)?;
     if lost > 0 {
-        eprintln!("note: the face was lost in {lost} of {count} frames");
+        note(format_args!("the face was lost in {lost} of {count} frames"));
     }
     Ok(())
 }

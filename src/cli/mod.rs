@@ -16,6 +16,7 @@ mod merge;
 mod new;
 mod play;
 mod plot;
+mod print;
 mod studio;
 mod syllables;
 mod times;
@@ -103,7 +104,7 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
     let (kept, notes) = crate::emotion::Kept::of(folder)?;
     for note in notes {
-        eprintln!("note: {note}");
+        print::note(note);
     }
     Ok(kept.made.calibration)
 }

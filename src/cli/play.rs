@@ -3,6 +3,7 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+use super::print;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 use crate::emotion::{Record, Tracks, Whole, import, is_lpr};
 use crate::figure::{Figure, LineFigure};
@@ -93,7 +94,7 @@ fn from_file(path: &Path, figure: Figure) -> Result<()> {
     let title = path.display().to_string();
     studio::play(Show { title, timeline: timeline(&record, tracks.as_ref()), figure, captions: Vec::new() })?;
     for note in notes {
-        eprintln!("note: {note}");
+        print::note(note);
     }
     damage.map_or(Ok(()), |fault| Err(after_playing(&fault, frames).at(path)))
 }

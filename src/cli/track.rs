@@ -4,7 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::frames_done::FramesDone;
-use super::{live, output_fault};
+use super::live;
+use super::print::{self, note, say, tell};
 use crate::disk::{Fault, Result};
 use crate::project::{Lesson, Method, TrackJob, counted};
 use crate::track::Options;
@@ -77,17 +78,17 @@ fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write
         match found {
             Ok(found) => {
                 for note in found.notes.iter().chain(&found.tracked.notes) {
-                    eprintln!("note: clip {name}: {note}");
+                    print::note(format_args!("clip {name}: {note}"));
                 }
                 if let Some(change) = lesson.tracked(number, &found.tracked, &found.checksum) {
                     lesson.change(change)?;
                     lesson.save()?;
                 }
-                writeln!(out, "{}", summary(&lesson, number)).map_err(output_fault)?;
+                say(out, summary(&lesson, number))?;
             }
             Err(fault) => {
                 if let Some(before) = failed.replace(fault) {
-                    eprintln!("error: {before}");
+                    tell(format_args!("error: {before}"));
                 }
             }
         }
@@ -106,11 +107,11 @@ pub(super) fn find_missing(lesson: &mut Lesson, clips: &[usize]) {
         match found {
             Ok(found) => {
                 lesson.take_tracked(number, found.tracked, &found.checksum);
-                eprintln!(
-                    "note: the face in the video of clip {name} was followed; `lianpu track` keeps what was found"
-                );
+                note(format_args!(
+                    "the face in the video of clip {name} was followed; `lianpu track` keeps what was found"
+                ));
             }
-            Err(fault) => eprintln!("note: the face in the video of clip {name} was not followed: {fault}"),
+            Err(fault) => note(format_args!("the face in the video of clip {name} was not followed: {fault}")),
         }
     }
 }
@@ -135,15 +136,15 @@ fn wanted(lesson: &Lesson, chosen: Option<usize>, args: &Args, options: &Options
         if own && !args.replace {
             let text =
                 format!("clip {name} has ratios of its own, which stay; `--replace` puts the video's in their place");
-            eprintln!("note: {text}");
+            note(text);
         } else if chosen.is_some() || own || lesson.is_tracked_anew(number, args.by, options)? {
             wanted.push(number);
         } else {
-            eprintln!("clip {name}: neither its video nor the calibration has changed, what was found stays");
+            tell(format_args!("clip {name}: neither its video nor the calibration has changed, what was found stays"));
         }
     }
     if lesson.clips.iter().all(|c| c.video.is_none()) {
-        eprintln!("note: no clip has a video, so there is nothing to follow");
+        note("no clip has a video, so there is nothing to follow");
     }
     Ok(wanted)
 }

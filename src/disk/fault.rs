@@ -4,6 +4,8 @@ use std::error::Error;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::{printable, shown};
+
 /// What every reading room returns.
 pub type Result<T, E = Fault> = std::result::Result<T, E>;
 
@@ -101,14 +103,14 @@ impl Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.what)?;
+        f.write_str(&printable(&self.what))?;
         match (&self.path, self.line) {
-            (Some(path), Some(line)) => write!(f, "\n  at {}:{line}", path.display())?,
-            (Some(path), None) => write!(f, "\n  at {}", path.display())?,
+            (Some(path), Some(line)) => write!(f, "\n  at {}:{line}", shown(path))?,
+            (Some(path), None) => write!(f, "\n  at {}", shown(path))?,
             (None, Some(line)) => write!(f, "\n  at line {line}")?,
             (None, None) => {}
         }
-        if self.help.is_empty() { Ok(()) } else { write!(f, "\n  {}", self.help) }
+        if self.help.is_empty() { Ok(()) } else { write!(f, "\n  {}", printable(&self.help)) }
     }
 }
 

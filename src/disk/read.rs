@@ -1,11 +1,9 @@
-//! Text as it comes in: bounded, UTF-8, NFC, without control characters.
+//! Files as they come in: of bounded length, text in UTF-8.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use unicode_normalization::UnicodeNormalization;
-
-use super::{Fault, Result, door};
+use super::{Fault, Result, clean, door};
 
 /// The largest text file that is read. A lesson of an hour, phones included, is below 2 MB.
 pub const MAX_TEXT_BYTES: u64 = 64 << 20;
@@ -52,43 +50,6 @@ pub fn read_text(path: &Path) -> Result<String> {
     }
 }
 
-/// NFC, `\r\n` and `\r` as `\n`, and no control or invisible formatting character but newline and tab, and nothing
-/// that is no character: what is read is safe to print on a terminal and can stand in XML.
-#[must_use]
-pub fn clean(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut previous_cr = false;
-    for c in text.nfc() {
-        match c {
-            '\r' => out.push('\n'),
-            '\n' if previous_cr => {}
-            '\n' | '\t' => out.push(c),
-            c if c.is_control() || is_formatting(c) || is_none(c) => {}
-            c => out.push(c),
-        }
-        previous_cr = c == '\r';
-    }
-    out
-}
-
-/// One line of at most `limit` characters: for names and titles.
-#[must_use]
-pub fn clean_line(text: &str, limit: usize) -> String {
-    let text = clean(text);
-    text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(limit).collect()
-}
-
-/// Marks that reorder or hide text: byte order mark, zero widths, directional overrides and isolates.
-fn is_formatting(c: char) -> bool {
-    matches!(c, '\u{FEFF}' | '\u{200B}'..='\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2060}'..='\u{2069}')
-}
-
-/// The code points that never will be characters (Unicode, 23.7 "Noncharacters"); XML refuses some of them.
-fn is_none(c: char) -> bool {
-    let c = u32::from(c);
-    c & 0xFFFE == 0xFFFE || (0xFDD0..=0xFDEF).contains(&c)
-}
-
 /// The largest file that is compared with what is to take its place.
 const MAX_OLD_BYTES: u64 = 1 << 30;
 
@@ -101,20 +62,6 @@ pub fn read_old(path: &Path) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn escapes_and_hidden_marks_do_not_survive_and_lines_do() {
-        assert_eq!(clean("a\x1b[31mb\r\nc\rd\u{202E}e\u{0}"), "a[31mb\nc\nde");
-        assert_eq!(clean("ni\u{0301}n"), "ní\u{6e}");
-    }
-
-    #[test]
-    fn what_is_no_character_does_not_survive_and_its_neighbours_do() {
-        assert_eq!(clean("a\u{FFFE}b\u{FFFF}c\u{1FFFE}d\u{10FFFF}e\u{FDD0}f\u{FDEF}"), "abcdef");
-        assert_eq!(clean_line("\u{FFFF} 您\u{FFFE}好 ", 9), "您好");
-        let kept = "\u{FFFD}\u{FDCF}\u{FDF0}\u{1FFFD}\u{20000}\u{FFF9}";
-        assert_eq!(clean(kept), kept);
-    }
 
     #[test]
     fn text_that_is_not_utf8_names_the_line() {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::show::Show;
+use crate::cli::print::{self, note, tell};
 use crate::disk::{Fault, Result};
 use crate::export::{Asked, Ledger, Request, Shard, Share, asked, divide, export};
 use crate::project::{Clip, Lesson};
@@ -49,7 +50,7 @@ impl Course<'_> {
         }
         if failed.count > 0 && self.shard != Shard::WHOLE {
             ledger.give_up();
-            eprintln!("note: part {} is not done; run it again when its lessons are mended", self.shard);
+            note(format_args!("part {} is not done; run it again when its lessons are mended", self.shard));
             return Ok(failed);
         }
         if failed.count > 0 && ledger.is_empty() {
@@ -64,7 +65,7 @@ impl Course<'_> {
         if !self.several || self.stop.load(Ordering::Relaxed) {
             return Err(fault);
         }
-        eprintln!("error: {}: {fault}", project.display());
+        tell(format_args!("error: {}: {fault}", project.display()));
         failed.count += 1;
         failed.of_the_call += u32::from(fault.is_of_the_call());
         Ok(())
@@ -103,16 +104,16 @@ impl Course<'_> {
             note_sound(clip);
         }
         for face in lesson.faces.iter().filter(|f| f.looks_each_time()) {
-            eprintln!(
-                "note: the points of face {} were looked for in its photo; `lianpu face` keeps them",
+            note(format_args!(
+                "the points of face {} were looked for in its photo; `lianpu face` keeps them",
                 face.entry.name
-            );
+            ));
         }
         let show = Show::new(self.json);
         let exported = export(&lesson, request, ledger, &|step| show.step(step), self.stop)?;
         show.clear();
         for note in &exported.notes {
-            eprintln!("note: {note}");
+            print::note(note);
         }
         if exported.report.stopped {
             return Err(
@@ -141,7 +142,7 @@ fn wanted(lesson: &Lesson, request: &Request) -> Vec<usize> {
 /// Frames drawn from guessed times look as sure as any others, so it is said.
 fn note_guess(clip: &Clip) {
     if clip.timing.guessed && !clip.syllables.is_empty() {
-        eprintln!("note: the times of clip {} are guessed; set them in the studio", clip.entry.name);
+        note(format_args!("the times of clip {} are guessed; set them in the studio", clip.entry.name));
     }
 }
 
@@ -150,11 +151,11 @@ fn note_sound(clip: &Clip) {
     let Some(sound) = &clip.sound else { return };
     let name = &clip.entry.name;
     for warning in &sound.warnings {
-        eprintln!("note: the recording of clip {name}: {warning}");
+        note(format_args!("the recording of clip {name}: {warning}"));
     }
     let end = sound.duration();
     // Rounded times may end a hair later.
     if let Some(over) = clip.intervals().iter().find(|i| i.end > end + 0.01) {
-        eprintln!("note: `{}` of clip {name} ends at {:.2} s, its recording at {end:.2} s", over.label, over.end);
+        note(format_args!("`{}` of clip {name} ends at {:.2} s, its recording at {end:.2} s", over.label, over.end));
     }
 }

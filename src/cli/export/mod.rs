@@ -9,6 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use self::course::{Course, Failed};
+use super::print::note;
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::export::{Dedupe, Format, FrameSet, Request, Shard, shard_of_array};
@@ -84,9 +85,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let projects = super::lessons(&args.projects);
     let shard = match args.shard {
         Some(shard) => shard,
-        None => {
-            shard_of_array()?.inspect(|s| eprintln!("note: part {s}, as this job array has it")).unwrap_or(Shard::WHOLE)
-        }
+        None => shard_of_array()?
+            .inspect(|s| note(format_args!("part {s}, as this job array has it")))
+            .unwrap_or(Shard::WHOLE),
     };
     let request = request_of(args, projects.len() > 1);
     let stop = Arc::new(AtomicBool::new(false));
