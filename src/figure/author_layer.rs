@@ -203,8 +203,7 @@ impl Reader {
         let is_near = [reach.x0, reach.y0, reach.x1, reach.y1, f64::from(stroke.width().get())]
             .iter()
             .all(|v| v.abs() <= MAX_COORDINATE);
-        // Written so that what is no number is beyond them.
-        self.over = if !(self.dashes <= MAX_DASHES) {
+        self.over = if self.dashes.is_nan() || self.dashes > MAX_DASHES {
             Some("its strokes have more than 20,000 dashes")
         } else if self.stroked > MAX_STROKED {
             Some("its stroked paths have more than 50,000 segments")
