@@ -100,3 +100,32 @@ fn only_the_two_faces_speak_of_flags_commands_and_keys() {
     }
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
+
+#[test]
+fn only_the_disk_room_opens_files() {
+    let own = [
+        "File::open",
+        "File::create",
+        "OpenOptions",
+        "fs::read",
+        "fs::write",
+        "fs::copy",
+        "fs::create_dir",
+        "hard_link",
+    ];
+    // A link's target is read, and no file.
+    let is_fine = |line: &str| line.trim_start().starts_with("//") || line.contains("fs::read_link");
+    let mut files = Vec::new();
+    files_of(&root(), &mut files);
+    let mut wrong = Vec::new();
+    for file in files.iter().filter(|f| !f.starts_with(root().join("disk"))) {
+        let text = fs::read_to_string(file).unwrap();
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        for (number, line) in code.lines().enumerate().filter(|(_, line)| !is_fine(line)) {
+            if own.iter().any(|call| line.contains(call)) {
+                wrong.push(format!("{}:{}: {}", file.display(), number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}

@@ -25,7 +25,7 @@ use super::model::{Model, Parts};
 use super::shape::Shapes;
 use super::trust::Trust;
 use crate::aam::annotation::MAX_POINTS;
-use crate::disk::{Fault, Result, Task, message, read_bytes, write_whole};
+use crate::disk::{Fault, Result, Task, message, read_bytes, write_output};
 
 const MAGIC: &[u8; 4] = b"LPAM";
 const VERSION: u32 = 1;
@@ -107,7 +107,7 @@ impl Model {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
-        write_whole(path, &self.to_bytes())
+        write_output(path, &self.to_bytes())
     }
 }
 

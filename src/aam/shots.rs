@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::annotation::Annotation;
 use super::grey::Grey;
-use crate::disk::{Fault, Result, inside};
+use crate::disk::{Fault, Result, inside, list};
 use crate::geometry::Point;
 
 /// A picture and the points in it.
@@ -33,9 +33,8 @@ impl Shot {
     /// # Errors
     /// When the folder or a file in it cannot be read, a picture is missing, or one is annotated twice.
     pub fn read_folder(folder: &Path) -> Result<Vec<Self>> {
-        let entries = std::fs::read_dir(folder).map_err(|e| Fault::io("cannot open the folder", folder, e))?;
-        let mut files: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(|p| is_annotation(p)).collect();
-        files.sort();
+        let paths = list(folder).map_err(|e| Fault::io("cannot open the folder", folder, e))?;
+        let files: Vec<PathBuf> = paths.into_iter().filter(|p| is_annotation(p)).collect();
         let mut shots: Vec<Self> = Vec::new();
         let mut seen = BTreeSet::new();
         for file in &files {

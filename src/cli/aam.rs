@@ -7,8 +7,9 @@ use clap::{Subcommand, ValueEnum};
 use serde_json::json;
 
 use super::output_fault;
+use super::print::say;
 use crate::aam::{Annotation, Fit, Fitter, Grey, Kind, Model, Options, Shot, Start};
-use crate::disk::{Fault, Result, write_whole};
+use crate::disk::{Fault, Result, printable_json, shown, write_output};
 use crate::face::find::find;
 use crate::geometry::{Point, Rect};
 use crate::plot;
@@ -145,8 +146,8 @@ fn fit(args: &FitArgs, out: &mut dyn Write) -> Result<()> {
             }
         };
         let fit = if args.sequence { fit } else { fitter.refine(&grey, &fit) };
-        let line = if args.json { as_json(path, &fit) } else { in_words(path, &fit) };
-        writeln!(out, "{line}").map_err(output_fault)?;
+        let line = if args.json { printable_json(&as_json(path, &fit)).into_owned() } else { in_words(path, &fit) };
+        say(out, line)?;
         last = Some(fit);
     }
     Ok(())
@@ -208,6 +209,6 @@ fn inspect(args: &Inspect, out: &mut dyn Write) -> Result<()> {
     let scale = (1800.0 / drawing.view.width()).min(2.0);
     let size = [drawing.view.width(), drawing.view.height()].map(|v| (v * scale).round().max(16.0) as u32);
     let picture = Painter::new(size[0], size[1])?.paint(&drawing);
-    write_whole(&args.out, &encode_png(&picture, "")?)?;
-    writeln!(out, "{}", args.out.display()).map_err(output_fault)
+    write_output(&args.out, &encode_png(&picture, "")?)?;
+    say(out, shown(&args.out))
 }

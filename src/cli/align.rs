@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::output_fault;
+use super::print::{self, say};
 use super::times::{Row, json, seconds, table};
-use super::wording;
-use crate::disk::{Fault, Result, read_text, write_whole};
+use crate::disk::{Fault, Result, read_text, write_output};
 use crate::project::{Clip, Lesson, tiers_of};
 use crate::script::{self, Syllable, System};
 use crate::speech::{self, Alignment, Note, Sound, Take};
@@ -78,7 +78,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let found = speech::align(&[take]).pop().unwrap_or_else(|| Err(Fault::new("nothing was found")));
     let found = found.map_err(|f| f.at(speech))?;
     for note in notes(&found) {
-        wording::note(note.to_string());
+        print::note(note.to_string());
     }
     let rows: Vec<Row> = syllables.iter().zip(&found.syllables).map(|(s, f)| Row::found(s, f)).collect();
     let timing = || tiers(&text, &syllables, &found, sound.duration());
@@ -105,7 +105,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         return marks(&sound, args, out);
     }
     let report = lesson.align(chosen, args.out.is_none())?;
-    report.notes.iter().for_each(wording::note);
+    report.notes.iter().for_each(print::note);
     if args.json || args.out.is_some() {
         let shown = if let Some(number) = chosen { vec![number] } else { lesson.spoken_clips() };
         let several = shown.len() > 1;
@@ -118,7 +118,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         give(&rows, timing, args, out)?;
     } else {
         for number in report.aligned {
-            writeln!(out, "{}", summary(&lesson.clips[number])).map_err(output_fault)?;
+            say(out, summary(&lesson.clips[number]))?;
         }
     }
     let mut failed = report.failed;
@@ -126,7 +126,7 @@ fn in_lesson(project: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
         None => Ok(()),
         Some((last, fault)) => {
             for (number, fault) in failed {
-                wording::error(Some(&format!("clip {}", lesson.clips[number].entry.name)), &fault);
+                print::error(Some(&format!("clip {}", lesson.clips[number].entry.name)), &fault);
             }
             Err(fault.at(&lesson.clips[last].folder))
         }
@@ -160,7 +160,7 @@ fn summary(clip: &Clip) -> String {
 /// Says what was wrong with a recording's file and is wrong with its sound.
 fn warn(sound: &Sound) {
     for warning in sound.warnings.iter().chain(&sound.quality().remarks()) {
-        wording::note(warning.as_str());
+        print::note(warning.as_str());
     }
 }
 
@@ -207,7 +207,7 @@ fn give(rows: &[Row], timing: impl Fn() -> Timing, args: &Args, out: &mut dyn Wr
         table(rows)
     };
     match &args.out {
-        Some(path) => write_whole(path, text.as_bytes()),
+        Some(path) => write_output(path, text.as_bytes()),
         None => out.write_all(text.as_bytes()).map_err(output_fault),
     }
 }
@@ -244,7 +244,7 @@ fn marks(sound: &Sound, args: &Args, out: &mut dyn Write) -> Result<()> {
         marks.iter().map(|m| format!("{:8.3} {:8.3}  {}\n", m.start, m.end, m.kind)).collect()
     };
     match &args.out {
-        Some(path) => write_whole(path, text.as_bytes()),
+        Some(path) => write_output(path, text.as_bytes()),
         None => out.write_all(text.as_bytes()).map_err(output_fault),
     }
 }

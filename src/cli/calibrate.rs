@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::output_fault;
-use crate::disk::{Fault, Result};
+use super::print::say;
+use crate::disk::{Fault, Result, printable_json};
 use crate::emotion::{Calibrated, Source};
 use crate::pose::Emotion;
 use crate::project::Lesson;
@@ -35,16 +35,15 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let face = &lesson.faces[number];
     let made = &kept.made;
     if args.json {
-        return writeln!(out, "{}", as_json(&face.entry.name, made)).map_err(output_fault);
+        return say(out, printable_json(&as_json(&face.entry.name, made)));
     }
     let text = in_words(made).join("\n");
-    writeln!(out, "{text}").map_err(output_fault)?;
+    say(out, text)?;
     let names: Vec<_> = written.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy()).collect();
     match names.as_slice() {
-        [] => writeln!(out, "face {}: nothing has changed", face.entry.name),
-        names => writeln!(out, "face {}: wrote {}", face.entry.name, names.join(", ")),
+        [] => say(out, format_args!("face {}: nothing has changed", face.entry.name)),
+        names => say(out, format_args!("face {}: wrote {}", face.entry.name, names.join(", "))),
     }
-    .map_err(output_fault)
 }
 
 /// How good a calibration is, line by line.

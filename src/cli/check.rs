@@ -3,8 +3,9 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{output_fault, wording};
-use crate::disk::{Fault, Result};
+use super::print::say;
+use super::wording;
+use crate::disk::{Fault, Result, printable_json, shown};
 use crate::project::{Finding, check, check_quality};
 
 /// Say what lessons have, lack, and have wrong. Exit code 1 if anything is wrong.
@@ -26,7 +27,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut wrong = 0;
     for project in &super::lessons(&args.projects) {
         if !args.json {
-            writeln!(out, "{}", project.display()).map_err(output_fault)?;
+            say(out, shown(project))?;
         }
         for finding in if args.quality { check_quality(project) } else { check(project) } {
             let (kind, text) = match &finding {
@@ -46,7 +47,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                     line["line"] = fault.line_number().into();
                     line["help"] = fault.advice().worded(&wording::word).into();
                 }
-                line.to_string()
+                printable_json(&line.to_string()).into_owned()
             } else {
                 let mark = match kind {
                     "fine" => "  ok     ",
@@ -55,7 +56,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
                 };
                 format!("{mark}{}", text.replace('\n', "\n         "))
             };
-            writeln!(out, "{line}").map_err(output_fault)?;
+            say(out, line)?;
         }
     }
     match wrong {

@@ -4,6 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::output_fault;
+use super::print;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 use crate::emotion::import::{self, Kind as Ratios};
 use crate::emotion::{Record, Tracks, Whole, to_lpr};
@@ -66,7 +67,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
 /// Writes what was asked for.
 fn put(to: Option<&Path>, bytes: &[u8], out: &mut dyn Write) -> Result<()> {
     match to {
-        Some(path) => disk::write_whole(path, bytes),
+        Some(path) => disk::write_output(path, bytes),
         None => out.write_all(bytes).map_err(output_fault),
     }
 }
@@ -129,7 +130,7 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         (record, tracks, notes, None)
     };
     for note in notes {
-        super::wording::note(note);
+        print::note(note);
     }
     match to {
         To::Lpr => {
@@ -140,10 +141,8 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         To::Csv | To::Json => {
             let text = if matches!(to, To::Json) { record.to_json() } else { record.to_csv() };
             match (&own, &args.tracks) {
-                (Some(tracks), Some(path)) => disk::write_whole(path, tracks.to_csv().as_bytes())?,
-                (Some(_), None) => {
-                    super::wording::note("eyes, mouth and head are left out; `--tracks FILE` writes them")
-                }
+                (Some(tracks), Some(path)) => disk::write_output(path, tracks.to_csv().as_bytes())?,
+                (Some(_), None) => print::note("eyes, mouth and head are left out; `--tracks FILE` writes them"),
                 (None, Some(_)) => {
                     return Err(Fault::new("the file has no eyes, mouth and head to write").at(&args.file));
                 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::output_fault;
-use crate::disk::{Fault, Result, write_whole};
+use super::print::say;
+use crate::disk::{Fault, Result, printable_json, write_output};
 use crate::drawing::Drawing;
 use crate::face::{Anchors, Created, Face, FeaturePoint, How, create};
 use crate::figure::Cartoon;
@@ -81,15 +81,15 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     }
     if args.json {
         let text = serde_json::to_string_pretty(&as_json(&created)).unwrap_or_default();
-        return writeln!(out, "{text}").map_err(output_fault);
+        return say(out, printable_json(&text));
     }
-    let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
-    say(said.unwrap_or_else(|| summary(&created.face)))?;
+    let mut line = |text: String| say(out, text);
+    line(said.unwrap_or_else(|| summary(&created.face)))?;
     for warning in &created.warnings {
-        say(format!("note: {warning}"))?;
+        line(format!("note: {warning}"))?;
     }
     for path in [&args.overlay, &args.sheet].into_iter().flatten() {
-        say(path.display().to_string())?;
+        line(path.display().to_string())?;
     }
     Ok(())
 }
@@ -215,5 +215,5 @@ fn write_png(path: &Path, drawing: &Drawing) -> Result<()> {
     let (width, height) = ((view.width() * scale).round() as u32, (view.height() * scale).round() as u32);
     let mut painter = Painter::new(width.max(16), height.max(16))?;
     let picture = painter.paint(drawing);
-    write_whole(path, &encode_png(&picture, "")?)
+    write_output(path, &encode_png(&picture, "")?)
 }

@@ -3,6 +3,7 @@
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
+use super::print;
 use crate::disk::{Fault, Result};
 use crate::emotion::Kept;
 use crate::project::Lesson;
@@ -15,11 +16,11 @@ use crate::track::{Options, relay};
 pub(super) fn run(model: &Path, options: &Options, out: &mut dyn Write) -> Result<()> {
     let folder = face_folder(model)?;
     let (kept, notes) = Kept::of(&folder)?;
-    notes.iter().for_each(super::wording::note);
+    notes.iter().for_each(print::note);
     let input = BufReader::with_capacity(1 << 20, std::io::stdin().lock());
     let (count, lost) = relay(input, out, &kept.made.model, &kept.made.calibration, options)?;
     if lost > 0 {
-        super::wording::note(format!("the face was lost in {lost} of {count} frames"));
+        print::note(format!("the face was lost in {lost} of {count} frames"));
     }
     Ok(())
 }

@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::output_fault;
-use crate::disk::Result;
+use super::print::{say, say_json, tell};
+use crate::disk::{Result, shown};
 use crate::export::merge;
 
 /// Join the parts of an export that was divided among machines, and check that nothing is missing or damaged.
@@ -27,10 +27,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     if args.json {
         let line = serde_json::json!({ "path": merged.path.to_string_lossy(), "parts": merged.parts, "files": merged.files,
             "bytes": merged.bytes });
-        return writeln!(out, "{line}").map_err(output_fault);
+        return say_json(out, &line);
     }
-    writeln!(out, "{}", merged.path.display()).map_err(output_fault)?;
+    say(out, shown(&merged.path))?;
     let parts = if merged.parts == 1 { "1 part".to_owned() } else { format!("{} parts", merged.parts) };
-    eprintln!("{parts}, {} files, all there and as they were written", merged.files);
+    tell(format_args!("{parts}, {} files, all there and as they were written", merged.files));
     Ok(())
 }

@@ -16,6 +16,7 @@ mod merge;
 mod new;
 mod play;
 mod plot;
+mod print;
 mod studio;
 mod syllables;
 mod times;
@@ -103,13 +104,13 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 /// The calibration of a face's folder as its shots are now; what there is to say of it is said.
 pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
     let (kept, notes) = crate::emotion::Kept::of(folder)?;
-    notes.iter().for_each(wording::note);
+    notes.iter().for_each(print::note);
     Ok(kept.made.calibration)
 }
 
 /// Prints the fault that ends a call, on standard error.
 pub fn report(fault: &Fault) {
-    wording::error(None, fault);
+    print::error(None, fault);
 }
 
 /// Runs one call of the program.
@@ -155,7 +156,7 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
 
 /// Reports a save that was cut off, and changes of an earlier session that are in no file.
 fn note_state(lesson: &Lesson) {
-    lesson.state_notes().iter().for_each(wording::note);
+    lesson.state_notes().iter().for_each(print::note);
 }
 
 /// What a failed write to standard output is called.

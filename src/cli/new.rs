@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::frames_done::FramesDone;
-use super::{output_fault, wording};
+use super::{print, wording};
 use crate::disk::Result;
 use crate::pose::Emotion;
 use crate::project::{Made, NewLesson, create};
@@ -82,7 +82,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     };
     let Made { lesson, warnings, notes, calibration } = made;
     let root = args.project.display();
-    let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
+    let mut say = |text: String| print::say(out, text);
     match lesson.clips.first() {
         Some(clip) => {
             let syllables = match clip.syllables.len() {

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use super::frames_done::FramesDone;
-use super::wording;
+use super::print;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 use crate::emotion::{Record, Tracks, Whole, import, is_lpr};
 use crate::figure::{Figure, LineFigure};
@@ -57,7 +57,7 @@ pub fn run(args: &Args) -> Result<()> {
             let clip = lesson.clip_named(args.clip.as_deref()).map_err(Fault::of_the_call)?;
             let bar = FramesDone::default();
             for note in prepare(&mut lesson, &[clip], &|clip, done, of| bar.show(clip, done, of)) {
-                wording::note(&note);
+                print::note(&note);
             }
             drop(bar);
             studio::play(Show::of_clip(&lesson, clip)?)
@@ -99,7 +99,7 @@ fn from_file(path: &Path, figure: Figure) -> Result<()> {
     let title = path.display().to_string();
     studio::play(Show { title, timeline: timeline(&record, tracks.as_ref()), figure, captions: Vec::new() })?;
     for note in notes {
-        wording::note(note);
+        print::note(note);
     }
     damage.map_or(Ok(()), |fault| Err(after_playing(&fault, frames).at(path)))
 }

@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{output_fault, wording};
-use crate::disk::{Fault, Result, read_bytes, write_whole};
+use super::print::{self, say};
+use crate::disk::{Fault, Result, read_bytes, shown, write_output};
 use crate::drawing::Drawing;
 use crate::plot;
 use crate::pose::{Emotion, Pose, Ratios};
@@ -105,7 +105,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         None => args.project.join("export").join(format!("{}-{name}.svg", clip.entry.name)),
     };
     write_chart(&path, drawing, args.font.as_deref())?;
-    writeln!(out, "{}", path.display()).map_err(output_fault)
+    say(out, shown(&path))
 }
 
 /// The calibration of the clip's face (paper fig. 3).
@@ -169,17 +169,17 @@ fn write_chart(path: &Path, mut drawing: Drawing, font: Option<&Path>) -> Result
     let size = |v: f64| (v.ceil() as u32).clamp(1, MAX_SIDE);
     let (width, height) = (size(drawing.view.width()), size(drawing.view.height()));
     match path.extension().and_then(|e| e.to_str()) {
-        Some("svg") => write_whole(path, to_svg(&drawing, width, height).as_bytes()),
+        Some("svg") => write_output(path, to_svg(&drawing, width, height).as_bytes()),
         Some("png") => {
             let font = font
                 .map(|file| read_bytes(file, MAX_FONT_BYTES).and_then(FontFile::new).map_err(|f| f.at(file)))
                 .transpose()?;
             if font.is_none() && uncovered_in(&drawing).is_some() {
-                wording::note("Chinese is drawn as Pinyin; give --font FILE with the characters, or an .svg file");
+                print::note("Chinese is drawn as Pinyin; give --font FILE with the characters, or an .svg file");
                 drawing = drawing.with_texts(&crate::script::in_latin);
             }
             let picture = Painter::new(width, height)?.with_font(font).paint(&drawing);
-            write_whole(path, &encode_png(&picture, "")?)
+            write_output(path, &encode_png(&picture, "")?)
         }
         _ => Err(Fault::new(format!("`{}` ends in neither .svg nor .png", path.display()))
             .help("name the chart's file so")

@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal, Read, Write};
 use serde::Serialize;
 
 use super::output_fault;
+use super::print::say;
 use crate::disk::{self, Fault, Result};
 use crate::script::{self, Lang, Syllable, System};
 
@@ -43,8 +44,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         return write_json(&said, out).map_err(output_fault);
     }
     said.iter()
-        .try_for_each(|s| writeln!(out, "{}\t{}\t{}\t{}", s.text, s.pinyin, s.zhuyin, shapes(s).join(" ")))
-        .map_err(output_fault)
+        .try_for_each(|s| say(out, format_args!("{}\t{}\t{}\t{}", s.text, s.pinyin, s.zhuyin, shapes(s).join(" "))))
 }
 
 fn shapes(syllable: &Syllable) -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, printable_json};
 use crate::project::{Clip, Concern};
 use crate::script::Syllable;
 use crate::speech::{self, SURE};
@@ -83,7 +83,8 @@ impl Row {
 pub(super) fn json<T: Serialize>(rows: &[T]) -> Result<String> {
     let lines: Result<Vec<String>, _> = rows.iter().map(serde_json::to_string).collect();
     let lines = lines.map_err(|e| Fault::new(format!("it cannot be written as JSON: {e}")))?;
-    Ok(if lines.is_empty() { "[]\n".into() } else { format!("[\n  {}\n]\n", lines.join(",\n  ")) })
+    let text = if lines.is_empty() { "[]\n".into() } else { format!("[\n  {}\n]\n", lines.join(",\n  ")) };
+    Ok(printable_json(&text).into_owned())
 }
 
 pub(super) fn table(rows: &[Row]) -> String {

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::frames_done::FramesDone;
-use super::{live, output_fault, wording};
+use super::{live, print};
 use crate::disk::{Fault, Result};
 use crate::project::{Clip, Lesson, Method, TrackEvent, TrackRequest, counted};
 use crate::track::Options;
@@ -63,11 +63,11 @@ fn in_lesson(project: &Path, args: &Args, options: &Options, out: &mut dyn Write
     lesson.track(&request, &|clip, done, of| bar.show(clip, done, of), &mut |event| {
         bar.clear();
         match event {
-            TrackEvent::Note(note) => wording::note(note),
-            TrackEvent::Tracked(clip) => return writeln!(out, "{}", summary(clip)).map_err(output_fault),
+            TrackEvent::Note(note) => print::note(note),
+            TrackEvent::Tracked(clip) => return print::say(out, summary(clip)),
             TrackEvent::Failed(clip, fault) => {
                 if let Some((name, before)) = failed.replace((format!("clip {}", clip.entry.name), fault)) {
-                    wording::error(Some(&name), &before);
+                    print::error(Some(&name), &before);
                 }
             }
         }

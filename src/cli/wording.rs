@@ -1,8 +1,8 @@
-//! The steps of messages as commands and flags, and the one way in which notes and faults reach standard error.
+//! The steps of messages as commands and flags.
 
 use std::fmt::Write;
 
-use crate::disk::{Fault, Message, NextStep, Setting, Task};
+use crate::disk::{Message, NextStep, Setting, Task};
 
 /// A step as it is typed: a task as a command in backticks, settings as flags.
 pub(super) fn word(step: &NextStep) -> String {
@@ -68,20 +68,9 @@ const fn flag(setting: Setting) -> (&'static str, &'static str) {
     }
 }
 
-/// Prints a note on standard error.
-pub(super) fn note(note: impl Into<Message>) {
-    eprintln!("note: {}", worded(note));
-}
-
 /// A message in the words of the command line.
 pub(super) fn worded(message: impl Into<Message>) -> String {
     message.into().worded(&word)
-}
-
-/// Prints a fault on standard error, with whose it is where several were worked on.
-pub(super) fn error(whose: Option<&str>, fault: &Fault) {
-    let whose = whose.map(|name| format!("{name}: ")).unwrap_or_default();
-    eprintln!("error: {whose}{}", fault.worded(&word));
 }
 
 #[cfg(test)]

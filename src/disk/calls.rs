@@ -1,11 +1,11 @@
 //! The calls by which a commit changes the disk, as a trait, so that a test can fail, stop or reorder any one of them.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::File;
 use std::io::{Result, Write};
 use std::path::{Path, PathBuf};
 
 use super::rights::Rights;
-use super::temporary_in;
+use super::{door, temporary_in};
 
 /// An open file and its path.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ pub trait Calls {
     /// # Errors
     /// As the system's; so do all calls here.
     fn create_folder(&mut self, folder: &Path) -> Result<()> {
-        fs::create_dir_all(folder)
+        door::make_folder(folder)
     }
 
     /// Makes a new temporary file in a folder, whose name ends in `ending`.
@@ -40,7 +40,7 @@ pub trait Calls {
     /// # Errors
     /// As the system's.
     fn open(&mut self, path: &Path) -> Result<Handle> {
-        let file = OpenOptions::new().append(true).create(true).open(path)?;
+        let file = door::append_or_make(path)?;
         Ok(Handle { file, path: path.to_owned() })
     }
 
@@ -81,7 +81,7 @@ pub trait Calls {
     /// # Errors
     /// As the system's.
     fn rename(&mut self, from: &Path, to: &Path) -> Result<()> {
-        fs::rename(from, to)
+        door::rename(from, to)
     }
 
     /// Removes a file.
@@ -89,7 +89,7 @@ pub trait Calls {
     /// # Errors
     /// As the system's.
     fn remove(&mut self, path: &Path) -> Result<()> {
-        fs::remove_file(path)
+        door::remove(path)
     }
 
     /// Waits until the names in a folder are on the disk.

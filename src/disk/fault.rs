@@ -5,7 +5,7 @@ use std::error::Error;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{Message, NextStep};
+use super::{Message, NextStep, printable, shown};
 
 /// What every reading room returns.
 pub type Result<T, E = Fault> = std::result::Result<T, E>;
@@ -157,14 +157,14 @@ impl Fault {
     /// The printed form, with every step of the advice as `word` puts it.
     #[must_use]
     pub fn worded(&self, word: &dyn Fn(&NextStep) -> String) -> String {
-        self.to_message().worded(word)
+        printable(&self.to_message().worded(word)).into_owned()
     }
 
     /// The lines of the place: empty where none is known.
     fn place(&self) -> String {
         match (&self.0.path, self.0.line) {
-            (Some(path), Some(line)) => format!("\n  at {}:{line}", path.display()),
-            (Some(path), None) => format!("\n  at {}", path.display()),
+            (Some(path), Some(line)) => format!("\n  at {}:{line}", shown(path)),
+            (Some(path), None) => format!("\n  at {}", shown(path)),
             (None, Some(line)) => format!("\n  at line {line}"),
             (None, None) => String::new(),
         }

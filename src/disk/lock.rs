@@ -1,11 +1,11 @@
 //! The lock that keeps two programs from changing one project, and the folder it is in, held by what it is and not by
 //! its path.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, TryLockError};
 use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 
-use super::{Fault, Result, clean_line};
+use super::{Fault, Result, clean_line, door};
 
 /// Held while a project is open for writing; let go when dropped or when the program ends, however it ends. Its file names
 /// who holds it.
@@ -21,14 +21,9 @@ impl Lock {
     /// When the lock's file cannot be made.
     pub fn take(path: &Path) -> Result<Option<Self>> {
         if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+            door::make_folder(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
         }
-        let file = OpenOptions::new()
-            .create(true)
-            .truncate(false)
-            .write(true)
-            .open(path)
-            .map_err(|e| Fault::io("cannot make the lock", path, e))?;
+        let file = door::open_or_make(path).map_err(|e| Fault::io("cannot make the lock", path, e))?;
         match file.try_lock() {
             Ok(()) => {
                 // On a full disk the lock holds, and nobody is named.
@@ -43,7 +38,7 @@ impl Lock {
     /// Whether another program holds the lock at `path`. Nothing is made there.
     #[must_use]
     pub fn is_held(path: &Path) -> bool {
-        path.is_file() && File::open(path).is_ok_and(|f| matches!(f.try_lock_shared(), Err(TryLockError::WouldBlock)))
+        door::open(path).is_ok_and(|f| matches!(f.try_lock_shared(), Err(TryLockError::WouldBlock)))
     }
 
     /// Who holds the lock at `path`, as `process 123 on HOST`; none where its file does not say.
@@ -51,7 +46,7 @@ impl Lock {
     pub fn holder(path: &Path) -> Option<String> {
         const LONGEST: usize = 120;
         let mut text = String::new();
-        File::open(path).ok()?.take(LONGEST as u64).read_to_string(&mut text).ok()?;
+        door::open(path).ok()?.take(LONGEST as u64).read_to_string(&mut text).ok()?;
         Some(clean_line(&text, LONGEST)).filter(|t| !t.is_empty())
     }
 
@@ -80,7 +75,7 @@ impl HeldFolder {
     /// Holds the folder at `path`. Where the system opens no folders, nothing is noticed.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { folder: File::open(path).ok() }
+        Self { folder: door::open_folder(path).ok() }
     }
 
     /// Whether it is still the folder at `path`.

@@ -1,12 +1,9 @@
-//! Text as it comes in: bounded, UTF-8, NFC, without control characters.
+//! Files as they come in: of bounded length, text in UTF-8.
 
-use std::fs::{self, File};
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use unicode_normalization::UnicodeNormalization;
-
-use super::{Fault, Result};
+use super::{Fault, Result, clean, door};
 
 /// The largest text file that is read. A lesson of an hour, phones included, is below 2 MB.
 pub const MAX_TEXT_BYTES: u64 = 64 << 20;
@@ -16,7 +13,7 @@ pub const MAX_TEXT_BYTES: u64 = 64 << 20;
 /// # Errors
 /// When it cannot be read or is longer than `limit`.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
-    let file = File::open(path).map_err(|e| Fault::io("cannot open it", path, e))?;
+    let file = door::open(path).map_err(|e| cannot_open(path, e))?;
     let mut bytes = Vec::new();
     file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| Fault::io("cannot read it", path, e))?;
     if bytes.len() as u64 > limit {
@@ -25,6 +22,16 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
             .help("files of this kind are far smaller; is it the right one?"));
     }
     Ok(bytes)
+}
+
+/// A file that cannot be opened; where that is not the system's word, with what to do.
+fn cannot_open(path: &Path, error: std::io::Error) -> Fault {
+    let help = match error.kind() {
+        ErrorKind::PermissionDenied if error.raw_os_error().is_none() => "copy the file into the project instead",
+        ErrorKind::InvalidInput => "save what comes out of it as a file and give that",
+        _ => return Fault::io("cannot open it", path, error),
+    };
+    Fault::io("cannot open it", path, error).help(help)
 }
 
 /// The text of a UTF-8 file, with or without a byte order mark, made [`clean`].
@@ -43,48 +50,13 @@ pub fn read_text(path: &Path) -> Result<String> {
     }
 }
 
-/// NFC, `\r\n` and `\r` as `\n`, and no control or invisible formatting character but newline and tab, and nothing
-/// that is no character: what is read is safe to print on a terminal and can stand in XML.
-#[must_use]
-pub fn clean(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut previous_cr = false;
-    for c in text.nfc() {
-        match c {
-            '\r' => out.push('\n'),
-            '\n' if previous_cr => {}
-            '\n' | '\t' => out.push(c),
-            c if c.is_control() || is_formatting(c) || is_none(c) => {}
-            c => out.push(c),
-        }
-        previous_cr = c == '\r';
-    }
-    out
-}
+/// The largest file that is compared with what is to take its place.
+const MAX_OLD_BYTES: u64 = 1 << 30;
 
-/// One line of at most `limit` characters: for names and titles.
-#[must_use]
-pub fn clean_line(text: &str, limit: usize) -> String {
-    let text = clean(text);
-    text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(limit).collect()
-}
-
-/// Marks that reorder or hide text: byte order mark, zero widths, directional overrides and isolates.
-fn is_formatting(c: char) -> bool {
-    matches!(c, '\u{FEFF}' | '\u{200B}'..='\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2060}'..='\u{2069}')
-}
-
-/// The code points that never will be characters (Unicode, 23.7 "Noncharacters"); XML refuses some of them.
-fn is_none(c: char) -> bool {
-    let c = u32::from(c);
-    c & 0xFFFE == 0xFFFE || (0xFDD0..=0xFDEF).contains(&c)
-}
-
-/// What an ordinary file holds; none where there is none, or where something else is that could keep its reader waiting.
+/// The bytes of a regular file of at most 1 GiB; none where there is no such file.
 #[must_use]
 pub fn read_old(path: &Path) -> Option<Vec<u8>> {
-    fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
-    fs::read(path).ok()
+    read_bytes(path, MAX_OLD_BYTES).ok()
 }
 
 #[cfg(test)]
@@ -92,24 +64,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn escapes_and_hidden_marks_do_not_survive_and_lines_do() {
-        assert_eq!(clean("a\x1b[31mb\r\nc\rd\u{202E}e\u{0}"), "a[31mb\nc\nde");
-        assert_eq!(clean("ni\u{0301}n"), "ní\u{6e}");
-    }
-
-    #[test]
-    fn what_is_no_character_does_not_survive_and_its_neighbours_do() {
-        assert_eq!(clean("a\u{FFFE}b\u{FFFF}c\u{1FFFE}d\u{10FFFF}e\u{FDD0}f\u{FDEF}"), "abcdef");
-        assert_eq!(clean_line("\u{FFFF} 您\u{FFFE}好 ", 9), "您好");
-        let kept = "\u{FFFD}\u{FDCF}\u{FDF0}\u{1FFFD}\u{20000}\u{FFF9}";
-        assert_eq!(clean(kept), kept);
-    }
-
-    #[test]
     fn text_that_is_not_utf8_names_the_line() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("big5.txt");
-        fs::write(&path, b"one\ntwo\n\xB1\x7A").unwrap();
+        std::fs::write(&path, b"one\ntwo\n\xB1\x7A").unwrap();
         let fault = read_text(&path).unwrap_err();
         assert_eq!(fault.line_number(), Some(3));
     }

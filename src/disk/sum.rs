@@ -1,12 +1,11 @@
 //! The sum of a file's bytes, by which its states are compared.
 
-use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Fault, Result};
+use super::{Fault, Result, door};
 
 /// Length in bytes and CRC-32 of a file. It detects an accidental change, not a forged one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,13 +27,12 @@ impl Sum {
     /// When it cannot be read, or is no regular file.
     pub fn at(path: &Path) -> Result<Option<Self>> {
         let cannot = |e| Fault::io("cannot read it", path, e);
-        match fs::metadata(path) {
-            Ok(data) if data.is_file() => {}
-            Ok(_) => return Err(Fault::new("it is no regular file").at(path).help("move it aside")),
+        let mut file = match door::open(path) {
+            Ok(file) => file,
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(e) if e.raw_os_error().is_none() => return Err(cannot(e).help("move it aside")),
             Err(e) => return Err(cannot(e)),
-        }
-        let mut file = File::open(path).map_err(cannot)?;
+        };
         let mut hasher = crc32fast::Hasher::new();
         let mut length = 0;
         let mut buffer = vec![0; 1 << 16];
@@ -60,7 +58,7 @@ mod tests {
         let path = folder.path().join("file");
         assert_eq!(Sum::at(&path).unwrap(), None);
         let bytes = vec![7; 200_000];
-        fs::write(&path, &bytes).unwrap();
+        std::fs::write(&path, &bytes).unwrap();
         assert_eq!(Sum::at(&path).unwrap(), Some(Sum::of(&bytes)));
         assert!(Sum::at(folder.path()).is_err());
     }

@@ -2,11 +2,13 @@
 //! program has died.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempPath};
+
+use super::door;
 
 /// What their names begin with.
 const MARK: &str = ".lianpu-";
@@ -26,25 +28,28 @@ pub fn temporary_prefix() -> String {
 /// # Errors
 /// When the folder is not there or cannot be written to.
 pub fn temporary_in(folder: &Path, ending: &str) -> std::io::Result<NamedTempFile> {
-    let prefix = temporary_prefix();
-    let mut builder = Builder::new();
-    builder.prefix(&prefix).suffix(ending);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
+    Builder::new().prefix(&temporary_prefix()).suffix(ending).make_in(folder, door::make)
+}
+
+/// Gives a temporary file its name, in place of a file that has it.
+///
+/// # Errors
+/// When the name cannot be given; then the temporary file is removed.
+pub fn settle(temporary: TempPath, path: &Path) -> std::io::Result<()> {
+    door::rename(&temporary, path)?;
+    // Where it was there is nothing now.
+    let _ = temporary.keep();
+    Ok(())
 }
 
 /// Removes the files and folders that killed programs have left in a folder. Files of those that still run are not
 /// touched, here or on another machine that shares the folder.
 pub fn clear_temporaries(folder: &Path) {
-    for entry in left_in(folder) {
+    for path in left_in(folder) {
         // Whoever else clears the same folder may have been faster.
-        let _ = match entry.file_type() {
-            Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
-            _ => fs::remove_file(entry.path()),
+        let _ = match path.symlink_metadata() {
+            Ok(about) if about.is_dir() => fs::remove_dir_all(&path),
+            _ => door::remove(&path),
         };
     }
 }
@@ -61,18 +66,17 @@ pub fn has_temporaries(folder: &Path) -> bool {
     left_in(folder).next().is_some()
 }
 
-fn left_in(folder: &Path) -> impl Iterator<Item = fs::DirEntry> {
-    let is_left = |entry: &fs::DirEntry| {
-        let name = entry.file_name();
-        let Some(rest) = name.to_str().and_then(|n| n.strip_prefix(MARK)) else { return false };
-        match entry.file_type() {
-            Ok(kind) if kind.is_file() => is_dead(rest) || is_forgotten(entry),
+fn left_in(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let is_left = |path: &PathBuf| {
+        let Some(rest) = path.file_name().and_then(|n| n.to_str()?.strip_prefix(MARK)) else { return false };
+        match path.symlink_metadata() {
+            Ok(about) if about.is_file() => is_dead(rest) || is_forgotten(&about),
             // A folder is filled for hours without a change of its own.
-            Ok(kind) if kind.is_dir() => is_dead(rest),
+            Ok(about) if about.is_dir() => is_dead(rest),
             _ => false,
         }
     };
-    fs::read_dir(folder).into_iter().flatten().flatten().filter(is_left)
+    door::list(folder).unwrap_or_default().into_iter().filter(is_left)
 }
 
 /// Whether a name's process was on this machine and is no more.
@@ -83,9 +87,8 @@ fn is_dead(rest: &str) -> bool {
     machine_of == machine() && machine_of != UNKNOWN && !Path::new("/proc").join(process.to_string()).exists()
 }
 
-fn is_forgotten(entry: &fs::DirEntry) -> bool {
-    let changed = entry.metadata().and_then(|m| m.modified());
-    changed.is_ok_and(|at| at.elapsed().is_ok_and(|age| age > FORGOTTEN))
+fn is_forgotten(about: &fs::Metadata) -> bool {
+    about.modified().is_ok_and(|at| at.elapsed().is_ok_and(|age| age > FORGOTTEN))
 }
 
 /// Where processes cannot be told.

@@ -2,11 +2,11 @@
 
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::{Fault, Result, temporary_in};
+use super::{Fault, Result, door, settle, temporary_in};
 
 /// Puts `bytes` at `path`, making its folder where it is missing: a temporary file beside it, flush, fsync, rename,
 /// fsync of the folder. A reader sees the old file or the new one, and a crash leaves one of the two.
@@ -18,7 +18,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+    door::make_folder(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
     let saved = (|| {
         let mut file = temporary_in(folder, "")?;
         file.write_all(bytes)?;
@@ -35,7 +35,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 pub fn put_whole(mut file: NamedTempFile, path: &Path) -> std::io::Result<()> {
     file.flush()?;
     file.as_file().sync_all()?;
-    file.persist(path).map_err(|e| e.error)?;
+    settle(file.into_temp_path(), path)?;
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => sync_folder(folder),
         _ => sync_folder(Path::new(".")),
@@ -53,14 +53,51 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
     let saved = (|| {
         let mut file = temporary_in(folder, "")?;
         file.write_all(bytes)?;
-        file.persist(path).map(drop).map_err(|e| e.error)
+        settle(file.into_temp_path(), path)
     })();
     saved.map_err(|e| Fault::io("cannot write it", path, e))
 }
 
+/// Writes what a command was asked to put at a path of its user's: a link is followed, and the file that it names is
+/// replaced whole; into standard output, a pipe, a terminal or a device the bytes are written.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_output(path: &Path, bytes: &[u8]) -> Result<()> {
+    let into = |mut stream: Box<dyn Write>| {
+        let written = stream.write_all(bytes).and_then(|()| stream.flush());
+        written.map_err(|e| Fault::io("cannot write it", path, e))
+    };
+    // By its name: opened once more, a file behind it would have a second end.
+    if ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name)) {
+        return into(Box::new(std::io::stdout()));
+    }
+    if door::is_confined(path) {
+        return write_whole(path, bytes);
+    }
+    match fs::metadata(path) {
+        Ok(there) if !there.is_file() && !there.is_dir() => {
+            let stream = fs::OpenOptions::new().write(true).open(path);
+            into(Box::new(stream.map_err(|e| Fault::io("cannot open it", path, e))?))
+        }
+        _ => write_whole(&followed(path), bytes),
+    }
+}
+
+/// What a link names in the end; another path as it is.
+fn followed(path: &Path) -> PathBuf {
+    let mut at = path.to_owned();
+    // As many as Linux follows.
+    for _ in 0..40 {
+        let Ok(target) = fs::read_link(&at) else { break };
+        at = at.parent().unwrap_or(Path::new("")).join(target);
+    }
+    at
+}
+
 #[cfg(unix)]
 pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
-    fs::File::open(folder)?.sync_all()
+    door::open_folder(folder)?.sync_all()
 }
 
 #[cfg(not(unix))]

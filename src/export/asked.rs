@@ -1,9 +1,9 @@
 //! What an export is asked for, clip by clip, known before anything is made: all parts of a divided export tell the same.
 
 use std::collections::{BTreeMap, HashSet};
-use std::fs::{self, File};
+use std::fs;
 use std::io::ErrorKind;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
 use sha2::{Digest, Sha256};
 
@@ -11,7 +11,7 @@ use super::manifest::{add_content, hex};
 use super::plan::{checked_output, chosen_clips, frames_asked, out_folder, root_folder, texts_of};
 use super::whole::TOGETHER;
 use super::{Asked, Format, Request, wholes};
-use crate::disk::{Fault, Result, Setting, message};
+use crate::disk::{self, Fault, Result, Setting, message};
 use crate::project::Lesson;
 use crate::render::REVISION;
 
@@ -134,12 +134,10 @@ fn add(sum: &mut Sha256, root: &Path, path: &Path, deep: u32) -> Result<()> {
         sum.update(fs::read_link(path).map_err(fault)?.as_os_str().as_encoded_bytes());
     } else if about.is_file() {
         sum.update(about.len().to_le_bytes());
-        let mut file = File::open(path).map_err(fault)?;
+        let mut file = disk::open(path).map_err(fault)?;
         add_content(sum, &mut file).map_err(fault)?;
     } else if about.is_dir() && deep > 0 {
-        let entries: Vec<_> = fs::read_dir(path).and_then(Iterator::collect).map_err(fault)?;
-        let mut paths: Vec<PathBuf> = entries.into_iter().map(|e: fs::DirEntry| e.path()).collect();
-        paths.sort();
+        let paths = disk::list(path).map_err(fault)?;
         for path in paths.iter().filter(|p| p.file_name().is_some_and(|n| !n.to_string_lossy().starts_with('.'))) {
             add(sum, root, path, deep - 1)?;
         }

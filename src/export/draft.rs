@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::disk::{Fault, Result, Setting, message, put_whole, temporary_in};
+use crate::disk::{Fault, Result, Setting, make_folder, message, put_whole, temporary_in};
 
 /// Whatever becomes of it, nobody sees half of it: dropped, it is gone.
 pub(super) struct Draft {
@@ -51,7 +51,7 @@ pub(super) fn beside(place: &Path, ending: &str) -> Result<NamedTempFile> {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    std::fs::create_dir_all(folder).map_err(|e| folder_fault(folder, e))?;
+    make_folder(folder).map_err(|e| folder_fault(folder, e))?;
     temporary_in(folder, ending).map_err(|e| write_fault(place, e))
 }
 

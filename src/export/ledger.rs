@@ -3,14 +3,14 @@
 //! It becomes a [`Manifest`] when the export is done, and not before. Until then files that cannot tell themselves what
 //! they were made from are noted in a draft of it, so that an export that was killed goes on where it was.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::Shard;
 use super::asked::within;
 use super::manifest::{Asked, Entry, Manifest};
 use super::merge::parts_in;
-use crate::disk::{Fault, Message, Result, read_old};
+use crate::disk::{self, Fault, Message, Result};
 
 /// What a running export knows of its files.
 #[derive(Debug)]
@@ -55,22 +55,44 @@ impl Ledger {
         holds.entry(&name).cloned()
     }
 
-    /// Before a file is written anew: where somebody has changed it since an earlier export, theirs is kept beside it under
-    /// the same name with a `~`. Returns what the author should know of it. `new` is what will be written, where that is
-    /// known.
+    /// Before a file is written anew: where no earlier export wrote what is there, or somebody has changed it since, that is
+    /// renamed to the same name with a `~`. Returns a note for the author. `new` is what will be written, where it is known.
     pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<Option<Message>> {
         let name = within(&self.folder, path);
-        let wrote: Vec<&Entry> = self.before.iter().filter_map(|m| m.entry(&name)).collect();
-        let Some(old) = read_old(path).filter(|old| new.is_none_or(|new| new != old)) else { return Ok(None) };
-        let now = Entry::of(name.clone(), &old);
-        if wrote.is_empty() || wrote.iter().any(|w| w.sha256 == now.sha256) {
+        let parts = parts_in(&self.folder).unwrap_or_default();
+        let earlier = self.before.iter().chain(parts.iter().map(|(_, part)| part));
+        let wrote: Vec<&Entry> = earlier.filter_map(|m| m.entry(&name)).collect();
+        // A folder in the way stays, and writing says so.
+        if path.symlink_metadata().map_or(true, |there| there.is_dir()) {
             return Ok(None);
         }
-        let mut aside = path.as_os_str().to_owned();
-        aside.push("~");
-        fs::rename(path, &aside).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))?;
-        let note = format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew");
+        // What cannot be read is nothing that was exported.
+        if let Ok(now) = Entry::read(&self.folder, name.clone()) {
+            let is_new = new.is_some_and(|new| Entry::of(String::new(), new).sha256 == now.sha256);
+            if is_new || wrote.iter().any(|w| w.sha256 == now.sha256) {
+                return Ok(None);
+            }
+        }
+        put_aside(path)?;
+        let note = match wrote.is_empty() {
+            false => {
+                format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew")
+            }
+            true => format!("{name} was there and is of no export; it is kept as {name}~"),
+        };
         Ok(Some(note.into()))
+    }
+
+    /// Before anything is written: what has the manifest's name and is none is set aside as a file is.
+    pub(super) fn set_manifest_aside(&self) -> Result<Option<Message>> {
+        let name = Manifest::name(self.shard);
+        let path = self.folder.join(&name);
+        let is_there = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
+        if !is_there || Manifest::read(&path).is_ok() {
+            return Ok(None);
+        }
+        put_aside(&path)?;
+        Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}~").into()))
     }
 
     /// Notes a file that was made from what `key` tells.
@@ -93,14 +115,14 @@ impl Ledger {
     pub fn begin(&self) {
         let path = self.folder.join(Manifest::name(self.shard));
         if self.shard != Shard::WHOLE && Manifest::read(&path).is_ok_and(|m| m.clips != self.clips) {
-            let _ = fs::remove_file(path);
+            let _ = disk::remove(&path);
         }
     }
 
     /// Leaves a part undone: without its manifest it is known not to be.
     pub fn give_up(self) {
         if self.shard != Shard::WHOLE {
-            let _ = fs::remove_file(self.folder.join(Manifest::name(self.shard)));
+            let _ = disk::remove(&self.folder.join(Manifest::name(self.shard)));
         }
     }
 
@@ -111,7 +133,7 @@ impl Ledger {
     pub fn close(mut self) -> Result<PathBuf> {
         let clips = std::mem::take(&mut self.clips);
         let mut manifest = Manifest::new(self.shard, clips, std::mem::take(&mut self.files));
-        fs::create_dir_all(&self.folder).map_err(|e| Fault::io("cannot make the folder", &self.folder, e))?;
+        disk::make_folder(&self.folder).map_err(|e| Fault::io("cannot make the folder", &self.folder, e))?;
         // Several exports into one folder may end at once: each adds to what the others have.
         let _lock = self.lock();
         if self.shard == Shard::WHOLE
@@ -137,17 +159,24 @@ impl Ledger {
         }
         if before > 0 {
             // Nothing depends on its going.
-            let _ = fs::remove_file(self.folder.join(name));
+            let _ = disk::remove(&self.folder.join(name));
         }
         Ok(())
     }
 
     /// Waits until no other export changes the folder's manifests. Where folders cannot be locked nobody waits.
     fn lock(&self) -> Option<File> {
-        let folder = File::open(&self.folder).ok()?;
+        let folder = disk::open_folder(&self.folder).ok()?;
         folder.lock().ok()?;
         Some(folder)
     }
+}
+
+/// Renames a file to its name with a `~`.
+pub(super) fn put_aside(path: &Path) -> Result<()> {
+    let mut aside = path.as_os_str().to_owned();
+    aside.push("~");
+    disk::rename(path, Path::new(&aside)).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))
 }
 
 /// Manifests of parts that this one makes void: those of another division where this is a part, and those whose every file
@@ -161,7 +190,7 @@ fn remove_superseded(folder: &Path, now: &Manifest) {
             _ => other,
         };
         if is_void {
-            let _ = fs::remove_file(path);
+            let _ = disk::remove(&path);
         }
     }
 }

@@ -70,12 +70,13 @@ pub fn export(
     // What a run that was killed has left half done.
     clear_temporaries(&out_folder(lesson, request));
     jobs.iter().for_each(|job| clear_temporaries(&job.folder));
-    let mut notes = Vec::new();
+    let mut notes: Vec<Message> = ledger.set_manifest_aside()?.into_iter().collect();
     for (path, text) in jobs.iter().flat_map(|job| &job.texts) {
         notes.extend(ledger.set_aside(path, Some(text.as_bytes()))?);
     }
     let (report, files) = run(&jobs, request.jobs, &|p| tell(Step::Frames(p)), stop)?;
     ledger.add(files);
+    notes.extend(note_on_aside(report.aside));
     let made = write_wholes(lesson, request, &whole, ledger, &|whole, p| tell(Step::Whole(whole, p)), stop)?;
     let mut exported = Exported { report: report.with(&made), notes, ..Exported::default() };
     exported.report.stopped |= made.len() < whole.len();
@@ -117,6 +118,15 @@ fn check_ratios(lesson: &Lesson, whole: &[Whole]) -> Result<()> {
         None => "put the file back, or leave the formats ratios and lpr out".into(),
     };
     Err(Fault::of(ExportFault::NoRatios, what).at(clip.folder.join("ratios.csv")).help(help))
+}
+
+/// Frames of somebody else's that had the names of the lesson's.
+fn note_on_aside(count: u32) -> Option<Message> {
+    let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+    (count > 0).then(|| {
+        format!("{files} among the frames were there and of no export; they are kept with a ~ behind their names")
+            .into()
+    })
 }
 
 /// Some forms have no use for a part of a clip.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::Shard;
-use crate::disk::{Fault, Result, read_bytes, read_old, write_whole};
+use crate::disk::{self, Fault, Result, read_bytes, read_old, write_whole};
 
 /// The largest manifest that is read: a million frames have 150 MB.
 const MAX_BYTES: u64 = 1 << 30;
@@ -129,7 +129,7 @@ impl Entry {
     /// When it cannot be read.
     pub fn read(folder: &Path, path: String) -> Result<Self> {
         let full = folder.join(&path);
-        let mut file = File::open(&full).map_err(|e| Fault::io("cannot open it", &full, e))?;
+        let mut file = disk::open(&full).map_err(|e| Fault::io("cannot open it", &full, e))?;
         let mut sum = Sha256::new();
         let bytes = add_content(&mut sum, &mut file).map_err(|e| Fault::io("cannot read it", &full, e))?;
         Ok(Self { path, bytes, sha256: hex(&sum.finalize()), key: None })

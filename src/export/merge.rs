@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::manifest::{Entry, Manifest};
 use super::{Shard, divide};
-use crate::disk::{Fault, Message, Result, Setting, Task, clear_temporaries, message};
+use crate::disk::{self, Fault, Message, Result, Setting, Task, clear_temporaries, message};
 
 /// What joining found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,16 +66,14 @@ fn done(path: PathBuf, parts: u32, whole: &Manifest) -> Merged {
 
 /// The manifests of parts in a folder, in the order of their names.
 pub(super) fn parts_in(folder: &Path) -> Result<Vec<(PathBuf, Manifest)>> {
-    let entries = std::fs::read_dir(folder).map_err(|e| {
+    let paths = disk::list(folder).map_err(|e| {
         Fault::io("cannot list the folder", folder, e).help("give the folder that the parts were exported into")
     })?;
     let is_part = |path: &PathBuf| {
         let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
         name.starts_with("manifest-") && name.ends_with(".json") && name.contains("-of-")
     };
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(is_part).collect();
-    paths.sort();
-    paths.into_iter().map(|path| Manifest::read(&path).map(|manifest| (path, manifest))).collect()
+    paths.into_iter().filter(is_part).map(|path| Manifest::read(&path).map(|manifest| (path, manifest))).collect()
 }
 
 /// The advice to do a part again.

@@ -2,11 +2,10 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::fs;
 use std::path::Path;
 use std::str::FromStr;
 
-use crate::disk::{Fault, Result, temporary_prefix};
+use crate::disk::{self, Fault, Result, settle, temporary_prefix};
 use crate::pose::{Gaze, Head, Lids, MouthPose, Pose, Ratios};
 
 /// What is done about frames that are equal.
@@ -96,12 +95,12 @@ pub(super) fn repeat(from: &Path, path: &Path, dedupe: Dedupe) -> Result<u64> {
     // Where the disk has no links, or no more of this file, it is copied.
     if dedupe == Dedupe::Link {
         // A link is made whole, where nothing is in its place.
-        if fs::hard_link(from, path).is_ok() || in_place(path, |beside| fs::hard_link(from, beside)).is_ok() {
+        if disk::link(from, path).is_ok() || in_place(path, |beside| disk::link(from, beside)).is_ok() {
             return Ok(0);
         }
     }
     let mut bytes = 0;
-    in_place(path, |beside| fs::copy(from, beside).map(|n| bytes = n))
+    in_place(path, |beside| disk::copy(from, beside).map(|n| bytes = n))
         .map_err(|e| Fault::io("cannot write it", path, e))?;
     Ok(bytes)
 }
@@ -110,5 +109,5 @@ pub(super) fn repeat(from: &Path, path: &Path, dedupe: Dedupe) -> Result<u64> {
 fn in_place(path: &Path, mut make: impl FnMut(&Path) -> std::io::Result<()>) -> std::io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let beside = tempfile::Builder::new().prefix(&temporary_prefix()).make_in(folder, |beside| make(beside))?;
-    beside.into_temp_path().persist(path).map_err(|e| e.error)
+    settle(beside.into_temp_path(), path)
 }

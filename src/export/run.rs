@@ -8,9 +8,10 @@ use rayon::prelude::*;
 
 use super::asked::within;
 use super::digests::Digests;
+use super::ledger::put_aside;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
 use super::{Entry, Format, Job};
-use crate::disk::{Fault, Result, Setting, message, read_old, replace, write_whole};
+use crate::disk::{self, Fault, Result, Setting, message, read_old, replace, write_whole};
 use crate::drawing::Drawing;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
 
@@ -30,6 +31,8 @@ pub struct Report {
     pub written: u32,
     /// Files that were there already and right.
     pub kept: u32,
+    /// Files of others that had the names of frames, and have a `~` behind them now.
+    pub aside: u32,
     /// Frames of an earlier, longer export that were removed.
     pub removed: u32,
     /// Bytes written.
@@ -73,11 +76,11 @@ pub fn run(
         if job.formats.is_empty() || job.frames.is_empty() {
             continue;
         }
-        std::fs::create_dir_all(&job.folder)
-            .map_err(|e| elsewhere(Fault::io("cannot make the folder", &job.folder, e)))?;
+        disk::make_folder(&job.folder).map_err(|e| elsewhere(Fault::io("cannot make the folder", &job.folder, e)))?;
         files.extend(pool.install(|| write_frames(job, &tally, progress, stop))?);
     }
     report.written += tally.written.load(Ordering::Relaxed);
+    report.aside += tally.aside.load(Ordering::Relaxed);
     report.kept += tally.kept.load(Ordering::Relaxed);
     report.bytes += tally.bytes.load(Ordering::Relaxed);
     report.stopped = stop.load(Ordering::Relaxed) && tally.done.load(Ordering::Relaxed) < tally.of;
@@ -90,10 +93,22 @@ struct Tally {
     of: u32,
     written: AtomicU32,
     kept: AtomicU32,
+    aside: AtomicU32,
     bytes: AtomicU64,
 }
 
 impl Tally {
+    /// Sets aside what is where a frame goes and is no frame of this program.
+    fn make_room(&self, path: &Path) -> Result<()> {
+        let is_taken = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        if is_taken && !is_our_own(path, extension) {
+            put_aside(path)?;
+            self.aside.fetch_add(1, Ordering::Relaxed);
+        }
+        Ok(())
+    }
+
     fn step(&self, progress: &(dyn Fn(Progress) + Sync)) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         progress(Progress { done, of: self.of });
@@ -118,6 +133,7 @@ impl Tally {
         }
         let bytes = bytes()?;
         let bytes = bytes.as_ref();
+        self.make_room(path)?;
         replace(path, bytes).map_err(elsewhere)?;
         self.written.fetch_add(1, Ordering::Relaxed);
         self.bytes.fetch_add(bytes.len() as u64, Ordering::Relaxed);
@@ -237,6 +253,7 @@ fn write_pngs(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), st
             }
             None => {
                 let first = job.path_of(frames.first[*like], Format::Png);
+                tally.make_room(&path)?;
                 let bytes = repeat(&first, &path, job.dedupe).map_err(elsewhere)?;
                 tally.written.fetch_add(1, Ordering::Relaxed);
                 tally.bytes.fetch_add(bytes, Ordering::Relaxed);
@@ -311,14 +328,14 @@ fn key_of(drawing: &Drawing, size: [u32; 2]) -> String {
 /// Removes frames beyond the clip's end that an earlier export left: a video made of the folder would show them.
 /// Only numbered files that are our own are touched.
 fn remove_left_over(job: &Job) -> u32 {
-    let Ok(entries) = std::fs::read_dir(&job.folder) else { return 0 };
+    let Ok(paths) = disk::list(&job.folder) else { return 0 };
     let mut removed = 0;
-    for path in entries.flatten().map(|e| e.path()) {
+    for path in paths {
         let number = path.file_stem().and_then(|s| s.to_str()).filter(|s| s.len() == 6).and_then(|s| s.parse().ok());
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let beyond = number.is_some_and(|n: u32| n >= job.count);
         let asked = job.formats.iter().any(|f| f.name() == extension);
-        if beyond && asked && is_our_own(&path, extension) && std::fs::remove_file(&path).is_ok() {
+        if beyond && asked && is_our_own(&path, extension) && disk::remove(&path).is_ok() {
             removed += 1;
         }
     }

@@ -5,15 +5,14 @@ use std::fmt::Write as _;
 
 use serde::Deserialize;
 
-use super::{Beard, Colours, Face, FeaturePoint, Hair, HairKind, How, Measures, PhotoRecord, Placed};
+use super::point_row::{MAX_COORDINATE, PointRow};
+use super::{Beard, Colours, Face, FeaturePoint, Hair, HairKind, Measures, PhotoRecord, Placed};
 use crate::disk::{Fault, Result, Task, from_toml, message, nearest};
 use crate::drawing::Colour;
 use crate::geometry::Point;
 
 /// The only `format` there is.
 const FORMAT: u32 = 1;
-/// The farthest that a coordinate may lie from a photo's corner, in pixels.
-pub const MAX_COORDINATE: f64 = 100_000.0;
 /// The most vertices of an outline of hair.
 const MAX_VERTICES: usize = 2_000;
 /// The most outlines of hair.
@@ -23,25 +22,11 @@ const MAX_OUTLINES: usize = 64;
 #[serde(deny_unknown_fields)]
 struct FileTable {
     format: u32,
-    points: BTreeMap<String, PointTable>,
+    points: BTreeMap<String, PointRow>,
     colours: ColoursTable,
     measures: MeasuresTable,
     hair: HairTable,
     photo: PhotoTable,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PointTable {
-    x: f64,
-    y: f64,
-    #[serde(default = "sure")]
-    confidence: f64,
-    how: How,
-}
-
-fn sure() -> f64 {
-    1.0
 }
 
 #[derive(Deserialize)]
@@ -123,15 +108,7 @@ impl Face {
                 return Err(at_line(Fault::new(format!("there is no feature point \"{name}\"")), &key)
                     .help(format!("{near}the 72 are 4.6, 4.4a … 10.5 and h.1 to h.25")));
             };
-            if ![row.x, row.y].iter().all(|v| v.abs() <= MAX_COORDINATE) {
-                return Err(at_line(Fault::new(format!("point {name} lies nowhere near a photo")), &key)
-                    .help("give pixels of the photo"));
-            }
-            if !(0.0..=1.0).contains(&row.confidence) {
-                return Err(at_line(Fault::new(format!("the confidence of point {name} is not from 0 to 1")), &key)
-                    .help("write 1 for a point that you have set, or leave it out"));
-            }
-            placed.insert(point, Placed { at: Point::new(row.x, row.y), confidence: row.confidence, how: row.how });
+            placed.insert(point, row.placed(name).map_err(|fault| at_line(fault, &key))?);
         }
         let missing = |points: &mut dyn Iterator<Item = FeaturePoint>| {
             points.filter(|p| !placed.contains_key(p)).map(FeaturePoint::name).collect::<Vec<_>>()
@@ -206,16 +183,7 @@ impl Face {
         let mut out = format!("format = {FORMAT}\n\n[points]\n");
         for point in FeaturePoint::all() {
             let Some(placed) = self.placed(point) else { continue };
-            let how = match placed.how {
-                How::Found => "found",
-                How::Rule => "rule",
-                How::Hand => "hand",
-            };
-            let _ = writeln!(
-                out,
-                "\"{point}\" = {{ x = {:.1}, y = {:.1}, confidence = {:.2}, how = \"{how}\" }}",
-                placed.at.x, placed.at.y, placed.confidence
-            );
+            out.push_str(&PointRow::line(&point.name(), placed, 1));
         }
         let c = &self.colours;
         let _ = write!(

@@ -9,6 +9,7 @@ pub mod find;
 mod lips;
 mod measure;
 mod point;
+mod point_row;
 pub mod rig;
 pub mod thesis;
 mod units;
@@ -16,10 +17,11 @@ mod units;
 use std::ops::{Index, IndexMut};
 
 pub use create::{Created, Warning, create};
-pub use file::MAX_COORDINATE;
 pub use find::{Anchors, Refusal};
 pub use measure::{Fitness, Measured, measure};
 pub use point::{FeaturePoint, Part};
+pub use point_row::MAX_COORDINATE;
+pub(crate) use point_row::PointRow;
 pub use units::{Units, to_face_frame};
 
 use crate::drawing::Colour;

@@ -4,6 +4,7 @@
 use usvg::{Node, Paint, Transform, tiny_skia_path as skia};
 
 use super::cartoon::{Extra, Sheet};
+use super::layer_bounds::{check, too_much};
 use crate::disk::{Fault, Result};
 use crate::drawing::{Colour, Group, Item, fit};
 use crate::geometry::{Affine, BezPath, Point, Rect, Shape};
@@ -12,6 +13,12 @@ use crate::geometry::{Affine, BezPath, Point, Rect, Shape};
 pub const MAX_LAYER_BYTES: u64 = 8 << 20;
 /// The most shapes of a layer: each one costs time in every frame.
 const MAX_SHAPES: usize = 5_000;
+/// The most dashes of all strokes.
+const MAX_DASHES: f64 = 20_000.0;
+/// The most segments of all stroked paths: the outline of each has some ten.
+const MAX_STROKED: usize = 50_000;
+/// The farthest that a path may reach in its own coordinates: a curve's outline is divided the finer, the larger it is.
+const MAX_COORDINATE: f64 = 1e7;
 /// How far the outline of a stroke may lie from the true one, in units of the layer.
 const TOLERANCE: f64 = 0.05;
 
@@ -46,8 +53,9 @@ impl AuthorLayer {
     /// their colours.
     ///
     /// # Errors
-    /// When it is not SVG, or has more shapes than a frame can bear.
+    /// When it is not SVG, or has more shapes, dashes or segments than a frame can bear.
     pub fn parse(text: &str, place: LayerPlace) -> Result<Self> {
+        check(text)?;
         // Pictures are not looked at: neither files nor data inside the text.
         let options = usvg::Options {
             image_href_resolver: usvg::ImageHrefResolver {
@@ -60,6 +68,9 @@ impl AuthorLayer {
             .map_err(|e| Fault::new(format!("this is not an SVG drawing: {e}")).help("save it as plain SVG"))?;
         let mut reader = Reader::default();
         let items = reader.group(tree.root());
+        if let Some(what) = reader.over {
+            return Err(too_much(what));
+        }
         if reader.shapes > MAX_SHAPES {
             return Err(Fault::new(format!("the layer has more than {MAX_SHAPES} shapes"))
                 .help("simplify the drawing: every shape is drawn in every frame"));
@@ -106,6 +117,10 @@ impl AuthorLayer {
 #[derive(Default)]
 struct Reader {
     shapes: usize,
+    dashes: f64,
+    stroked: usize,
+    /// The bound that was exceeded.
+    over: Option<&'static str>,
     left_out: Vec<&'static str>,
 }
 
@@ -113,7 +128,7 @@ impl Reader {
     fn group(&mut self, group: &usvg::Group) -> Vec<Item> {
         let mut items = Vec::new();
         for node in group.children() {
-            if self.shapes > MAX_SHAPES {
+            if self.shapes > MAX_SHAPES || self.over.is_some() {
                 break;
             }
             match node {
@@ -167,6 +182,7 @@ impl Reader {
         let mut draw_stroke = || {
             let stroke = path.stroke()?;
             let colour = self.paint(stroke.paint(), stroke.opacity().get())?;
+            self.bound(&outline, stroke)?;
             Some(Item::area("", stroked(&outline, stroke), colour))
         };
         let drawn = draw_stroke();
@@ -174,6 +190,29 @@ impl Reader {
             usvg::PaintOrder::FillAndStroke => items.extend(filled.into_iter().chain(drawn)),
             usvg::PaintOrder::StrokeAndFill => items.extend(drawn.into_iter().chain(filled)),
         }
+    }
+
+    /// Counts what a stroke's outline will have; none where that is beyond the bounds.
+    fn bound(&mut self, path: &BezPath, stroke: &usvg::Stroke) -> Option<()> {
+        self.stroked += path.elements().len();
+        if let Some(dashes) = stroke.dasharray() {
+            let period: f64 = dashes.iter().map(|d| f64::from(*d)).sum();
+            self.dashes += dashes.len() as f64 * (1.0 + polygon_length(path) / period);
+        }
+        let reach = path.control_box();
+        let is_near = [reach.x0, reach.y0, reach.x1, reach.y1, f64::from(stroke.width().get())]
+            .iter()
+            .all(|v| v.abs() <= MAX_COORDINATE);
+        self.over = if self.dashes.is_nan() || self.dashes > MAX_DASHES {
+            Some("its strokes have more than 20,000 dashes")
+        } else if self.stroked > MAX_STROKED {
+            Some("its stroked paths have more than 50,000 segments")
+        } else if !is_near {
+            Some("a stroke reaches farther than 10,000,000 units")
+        } else {
+            return Some(());
+        };
+        None
     }
 
     /// A paint as one colour: of a gradient the mean of its stops.
@@ -237,9 +276,36 @@ fn stroked(path: &BezPath, stroke: &usvg::Stroke) -> BezPath {
     let mut style = kurbo::Stroke::new(f64::from(stroke.width().get())).with_caps(cap).with_join(join);
     style.miter_limit = f64::from(stroke.miterlimit().get());
     if let Some(dashes) = stroke.dasharray() {
-        style = style.with_dashes(f64::from(stroke.dashoffset()), dashes.iter().map(|d| f64::from(*d)));
+        let dashes: Vec<f64> = dashes.iter().map(|d| f64::from(*d)).collect();
+        // An odd number of dashes repeats after two rounds. Whole rounds are left out, for the offset is counted off dash by dash.
+        let round = dashes.iter().sum::<f64>() * if dashes.len() % 2 == 1 { 2.0 } else { 1.0 };
+        let offset = f64::from(stroke.dashoffset());
+        style = style.with_dashes(if offset > round { offset % round } else { offset }, dashes);
     }
     kurbo::stroke(path.iter(), &style, &kurbo::StrokeOpts::default(), TOLERANCE)
+}
+
+/// The length of a path's control polygon, which its curves do not exceed.
+fn polygon_length(path: &BezPath) -> f64 {
+    use kurbo::PathEl;
+    let (mut start, mut at, mut length) = (Point::ZERO, Point::ZERO, 0.0);
+    for element in path.elements() {
+        let points: &[Point] = match element {
+            PathEl::MoveTo(p) => {
+                (start, at) = (*p, *p);
+                continue;
+            }
+            PathEl::LineTo(p) => &[*p],
+            PathEl::QuadTo(a, p) => &[*a, *p],
+            PathEl::CurveTo(a, b, p) => &[*a, *b, *p],
+            PathEl::ClosePath => &[start],
+        };
+        for next in points {
+            length += at.distance(*next);
+            at = *next;
+        }
+    }
+    length
 }
 
 fn affine(t: Transform) -> Affine {
@@ -290,5 +356,101 @@ mod tests {
     fn what_is_no_svg_is_refused_with_what_to_do() {
         let fault = AuthorLayer::parse("<html></html>", LayerPlace::Head).unwrap_err();
         assert!(fault.next_step().contains("plain SVG"), "{fault}");
+    }
+
+    /// Refused with a next step, and at once.
+    fn refused(body: &str, because: &str) {
+        let text = format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="100" height="100">{body}</svg>"##
+        );
+        let begun = std::time::Instant::now();
+        let fault = AuthorLayer::parse(&text, LayerPlace::Body).expect_err(because);
+        assert!(fault.what().contains(because), "{fault}");
+        assert!(fault.next_step().contains("simplify"), "{fault}");
+        assert!(begun.elapsed().as_secs_f64() < 5.0, "{because}: {:?}", begun.elapsed());
+    }
+
+    #[test]
+    fn strokes_of_too_many_dashes_are_refused() {
+        let fault =
+            AuthorLayer::parse(include_str!("../../tests/bombs/dash-bomb.svg"), LayerPlace::Body).expect_err("a bomb");
+        assert!(fault.what().contains("dashes") && fault.next_step().contains("simplify"), "{fault}");
+        let line = |dashes: &str, more: &str| {
+            format!(r##"<path d="M0 0L1000 1000" stroke="red" stroke-dasharray="{dashes}" {more}/>"##)
+        };
+        refused(&line("0.0001 0.0001", ""), "dashes");
+        refused(&line("1e-6%", ""), "dashes");
+        refused(&format!(r##"<g transform="scale(1e-5)">{}</g>"##, line("1e-3", "")), "dashes");
+        refused(&line("0 1e-30 0", ""), "dashes");
+        refused(&line("1", "").repeat(30), "dashes");
+        refused(r##"<path d="M0 0C1e6 0 0 1e6 5 5" stroke="red" stroke-dasharray=".1"/>"##, "dashes");
+    }
+
+    #[test]
+    fn an_offset_of_many_rounds_is_that_of_the_rest() {
+        let dashed = |offset: &str| {
+            let text = format!(
+                r##"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0L90 0" stroke="red" stroke-dasharray="4 2 2" stroke-dashoffset="{offset}"/></svg>"##
+            );
+            AuthorLayer::parse(&text, LayerPlace::Body).unwrap().items
+        };
+        assert_eq!(dashed("1600000003"), dashed("1600000003"));
+        assert_eq!(dashed("35"), dashed("3"));
+    }
+
+    #[test]
+    fn strokes_that_reach_too_far_or_have_too_many_segments_are_refused() {
+        refused(r##"<path d="M0 0C1e20 0 0 1e20 5 5" stroke="red"/>"##, "10,000,000 units");
+        refused(r##"<path d="M0 0L9 9" stroke="red" stroke-width="1e12"/>"##, "10,000,000 units");
+        let long = format!(r##"<path d="M0 0{}" stroke="red" fill="none"/>"##, "l1 1".repeat(60_000));
+        refused(&long, "50,000 segments");
+        refused(&format!(r##"<path d="M0 0{}"/>"##, "l1 1".repeat(600_000)), "500000 segments");
+    }
+
+    #[test]
+    fn what_references_stand_for_is_bounded_before_it_is_made() {
+        // Each level stands for ten of the one before.
+        let levels = |one: &dyn Fn(usize) -> String| (1..9).map(one).collect::<String>();
+        let uses = levels(&|n| {
+            let copies = format!(r##"<use xlink:href="#a{}"/>"##, n - 1).repeat(10);
+            format!(r##"<g id="a{n}">{copies}</g>"##)
+        });
+        refused(
+            &format!(r##"<defs><rect id="a0" width="1" height="1"/>{uses}</defs><use xlink:href="#a8"/>"##),
+            "elements",
+        );
+        let patterns = levels(&|n| {
+            let fills = format!(r##"<rect width="9" height="9" fill="url(#p{})"/>"##, n - 1).repeat(10);
+            format!(r##"<pattern id="p{n}" width="1" height="1">{fills}</pattern>"##)
+        });
+        refused(&format!(r##"{patterns}<rect width="9" height="9" fill="url(#p8)"/>"##), "elements");
+        let shapes = r##"<path d="M0 0L1 1"/>"##.repeat(200);
+        let dots = "1 1 ".repeat(2000);
+        refused(
+            &format!(
+                r##"<marker id="m">{shapes}</marker><polyline points="{dots}" stroke="red" marker-mid="url(#m)"/>"##
+            ),
+            "elements",
+        );
+        refused(
+            &format!(
+                r##"<style>polyline {{ marker: url(#m) }}</style><marker id="m">{shapes}</marker><polyline points="{dots}"/>"##
+            ),
+            "elements",
+        );
+        refused(&format!("{}{}", "<g>".repeat(300), "</g>".repeat(300)), "100 deep");
+    }
+
+    #[test]
+    fn entities_that_stand_for_too_much_are_refused() {
+        let text = format!(
+            r##"<!DOCTYPE svg [<!ENTITY a "{}">]><svg xmlns="http://www.w3.org/2000/svg"><desc>{}</desc></svg>"##,
+            "x".repeat(50_000),
+            "&a;".repeat(1000)
+        );
+        let fault = AuthorLayer::parse(&text, LayerPlace::Body).unwrap_err();
+        assert!(fault.what().contains("entities"), "{fault}");
+        let small = r##"<!DOCTYPE svg [<!ENTITY ns "http://www.w3.org/2000/svg">]><svg xmlns="&ns;" width="9" height="9"><path d="M0 0L9 9L0 9"/></svg>"##;
+        assert_eq!(AuthorLayer::parse(small, LayerPlace::Body).unwrap().items.len(), 1);
     }
 }

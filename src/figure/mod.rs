@@ -5,6 +5,7 @@
 //! A figure owns no time: it draws the pose it is given and remembers nothing.
 
 mod author_layer;
+mod layer_bounds;
 pub mod cartoon;
 pub mod line;
 

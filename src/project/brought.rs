@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::face::FACE_FILE;
 use super::video::{FRAMES, VIDEOS};
 use crate::aam::{Annotation, annotation};
-use crate::disk::{Fault, Result, read_bytes, write_whole};
+use crate::disk::{Fault, Result, copy, make_folder, open, read_bytes, replace, write_whole};
 use crate::face::{Anchors, Created, create};
 use crate::geometry::Point;
 use crate::photo::{MAX_PHOTO_BYTES, Photo, sha256, to_clean_png, without_metadata};
@@ -65,7 +65,7 @@ impl Brought {
 
     /// Writes it as the shot of an emotion.
     pub(super) fn write(&self, folder: &Path, emotion: Emotion) -> Result<()> {
-        std::fs::create_dir_all(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+        make_folder(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
         write_whole(&folder.join(format!("{emotion}.png")), &self.png)?;
         match &self.marked {
             Some(points) => {
@@ -99,16 +99,17 @@ pub(super) fn copy_video(video: &Path, clip: &Path) -> Result<()> {
             .help(format!("give a folder of pictures, or a file that ends in {}", VIDEOS.join(", ")))
             .of_the_call());
     }
-    let size = video.metadata().map_err(|e| Fault::io("cannot look at it", video, e))?.len();
+    let size =
+        open(video).and_then(|file| file.metadata()).map_err(|e| Fault::io("cannot look at it", video, e))?.len();
     if size > MAX_VIDEO_BYTES {
         return Err(Fault::new(format!("it has {} GB", size >> 30)).at(video).help("cut it into clips first"));
     }
     let to = clip.join(format!("video.{extension}"));
-    std::fs::copy(video, &to).map(|_| ()).map_err(|e| Fault::io("cannot copy it", video, e))
+    copy(video, &to).map(|_| ()).map_err(|e| Fault::io("cannot copy it", video, e))
 }
 
 fn copy_frames(from: &Path, to: &Path) -> Result<()> {
-    std::fs::create_dir_all(to).map_err(|e| Fault::io("cannot make the folder", to, e))?;
+    make_folder(to).map_err(|e| Fault::io("cannot make the folder", to, e))?;
     let names: Vec<PathBuf> = Source::of(from, 25.0)?.files().to_vec();
     let digits = names.len().to_string().len().max(4);
     for (number, path) in names.iter().enumerate() {
@@ -121,7 +122,7 @@ fn copy_frames(from: &Path, to: &Path) -> Result<()> {
         };
         let path = to.join(format!("{number:0digits$}.{extension}"));
         // Not flushed one by one: the lesson's folder appears whole or not at all.
-        std::fs::write(&path, bytes).map_err(|e| Fault::io("cannot write it", &path, e))?;
+        replace(&path, &bytes)?;
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use super::manifest::ClipEntry;
 use super::save::sum_of;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
 use super::video;
-use crate::disk::{Fault, Message, Pending, Result, Sum, Task, inside, message, read_text};
+use crate::disk::{Fault, Message, Pending, Result, Sum, Task, inside, list, message, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
@@ -340,13 +340,12 @@ pub(super) const SOUNDS: [&str; 22] = [
 
 /// `speech.*` in a clip's folder.
 fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
-    let entries = std::fs::read_dir(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
+    let paths = list(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
     let is_sound = |p: &PathBuf| {
         let extension = p.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
         p.file_stem().is_some_and(|s| s == "speech") && SOUNDS.contains(&extension.as_str()) && p.is_file()
     };
-    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(is_sound).collect();
-    found.sort();
+    let found: Vec<PathBuf> = paths.into_iter().filter(is_sound).collect();
     let names: Vec<String> =
         found.iter().filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned())).collect();
     match (found.as_slice(), names.as_slice()) {

@@ -10,8 +10,8 @@ use super::settled::OWN_FOLDER;
 use super::video::FRAMES_FPS;
 use super::{AlignJob, Lesson, Method, TrackJob};
 use crate::disk::{
-    Commit, Fault, Message, Result, Setting, Sums, SystemCalls, Task, clean_line, clear_temporaries, message,
-    plain_name, read_bytes, read_text, temporary_prefix, write_whole,
+    Commit, Fault, Message, Result, Setting, Sums, SystemCalls, Task, clean_line, clear_temporaries, list, make_folder,
+    message, plain_name, read_bytes, read_text, temporary_prefix, write_whole,
 };
 use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
@@ -81,7 +81,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
             .of_the_call());
     };
     plain_name(&name).map_err(Fault::of_the_call)?;
-    let taken = root.symlink_metadata().is_ok() && std::fs::read_dir(root).map_or(true, |mut d| d.next().is_some());
+    let taken = root.symlink_metadata().is_ok() && list(root).map_or(true, |there| !there.is_empty());
     if taken {
         return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
     }
@@ -138,7 +138,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
         .iter()
         .map(|(e, path)| Ok((*e, Brought::read(path)?)))
         .collect::<Result<Vec<(Emotion, Brought)>>>()?;
-    std::fs::create_dir_all(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
+    make_folder(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
     clear_temporaries(parent);
     let draft = tempfile::Builder::new()
         .prefix(&temporary_prefix())
@@ -322,7 +322,7 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
 fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<Message>> {
     let mut notes = Vec::new();
     let folder = root.join("clips").join(&clip.name);
-    std::fs::create_dir_all(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
+    make_folder(&folder).map_err(|e| Fault::io("cannot make the folder", &folder, e))?;
     if let Some(path) = &new.speech {
         // What it is its content says; its name must be one that is found again.
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();

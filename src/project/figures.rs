@@ -83,7 +83,7 @@ fn own_file(root: &Path, key: &str, named: &str, else_do: &str) -> Result<std::p
 
 /// The fault at the manifest's line that names the thing.
 fn in_manifest(root: &Path, key: &str, named: &str, fault: Fault) -> Fault {
-    let line = std::fs::read_to_string(root.join(MANIFEST))
+    let line = read_text(&root.join(MANIFEST))
         .ok()
         .and_then(|text| text.lines().position(|l| l.contains(key) && l.contains(named)));
     let fault = fault.at(root.join(MANIFEST));

@@ -1,11 +1,11 @@
 //! The journal: every change since the last save, a line of JSON each, so that a lost connection loses nothing.
 
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use super::Change;
-use crate::disk::{Commit, Fault, Result, read_bytes};
+use crate::disk::{self, Commit, Fault, Result, read_bytes};
 
 /// The largest journal that is read: hundreds of changes to all the times of an hour.
 pub(super) const JOURNAL_BYTES: u64 = 2 << 30;
@@ -53,7 +53,7 @@ impl Journal {
     pub(super) fn note(&mut self, change: &Change) -> Result<()> {
         let cannot = |e| Fault::io("cannot write the journal", &self.path, e);
         if self.file.is_none() {
-            self.file = Some(OpenOptions::new().append(true).create(true).open(&self.path).map_err(cannot)?);
+            self.file = Some(disk::append_or_make(&self.path).map_err(cannot)?);
         }
         let Some(file) = &mut self.file else { return Ok(()) };
         let length = file.metadata().map_err(cannot)?.len();
@@ -79,7 +79,7 @@ impl Journal {
     pub(super) fn clear(&mut self) -> Result<()> {
         let file = match self.file.take() {
             Some(file) => Ok(file),
-            None => OpenOptions::new().append(true).open(&self.path),
+            None => disk::append(&self.path),
         };
         match file.and_then(|file| file.set_len(0).and_then(|()| file.sync_all())) {
             Err(e) if e.kind() != ErrorKind::NotFound => Err(Fault::io("cannot empty the journal", &self.path, e)),

@@ -9,7 +9,7 @@ use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::open::refusal;
 use super::{Change, Clip, LessonFace};
-use crate::disk::{Fault, HeldFolder, Lock, Message, Result, Sums, is_temporary, suggestion};
+use crate::disk::{self, Fault, HeldFolder, Lock, Message, Result, Sums, confine, is_temporary, suggestion};
 use crate::figure::Figure;
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
@@ -215,17 +215,17 @@ impl Lesson {
 /// When the folder cannot be listed.
 pub fn projects_in(folder: &Path) -> Result<Vec<PathBuf>> {
     if folder.join(MANIFEST).is_file() {
+        confine(folder);
         return Ok(vec![folder.to_owned()]);
     }
-    let entries = std::fs::read_dir(folder).map_err(|e| {
+    let paths = disk::list(folder).map_err(|e| {
         Fault::io("cannot list the folder", folder, e).help("give a folder that holds projects, or a project")
     })?;
-    let mut found: Vec<PathBuf> = entries
-        .flatten()
-        .filter(|e| !e.file_name().to_str().is_some_and(is_temporary))
-        .map(|e| e.path())
-        .filter(|p| p.join(MANIFEST).is_file())
-        .collect();
-    found.sort();
+    let is_project = |path: &PathBuf| {
+        let name = path.file_name().and_then(|n| n.to_str());
+        !name.is_some_and(is_temporary) && path.join(MANIFEST).is_file()
+    };
+    let found: Vec<PathBuf> = paths.into_iter().filter(is_project).collect();
+    found.iter().for_each(|project| confine(project));
     Ok(found)
 }

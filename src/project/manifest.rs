@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::disk::{Fault, Result, Task, clean_line, from_toml, message, plain_name, read_text, suggestion};
+use crate::disk::{Fault, Result, Task, clean_line, confine, from_toml, message, plain_name, read_text, suggestion};
 use crate::figure::LayerPlace;
 use crate::pose::MouthPreset;
 use crate::render::MAX_SIDE;
@@ -122,11 +122,12 @@ struct File {
 }
 
 impl Manifest {
-    /// Reads and checks the manifest of the project in `root`.
+    /// Reads and checks the manifest of the project in `root`, which no path in it leads out of from now on.
     ///
     /// # Errors
     /// With file and line, what was found and what is allowed.
     pub fn read(root: &Path) -> Result<Self> {
+        confine(root);
         let path = root.join(MANIFEST);
         if !path.is_file() {
             return Err(Fault::new("there is no lesson here").at(&path).help(message![

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::disk::{
     Calls, Fault, Lock, Message, Pending, Result, SystemCalls, clear_temporaries, commit_stamp, end_commit,
-    has_temporaries, is_commit_open,
+    has_temporaries, is_commit_open, list,
 };
 
 /// The program's own folder in a project.
@@ -91,8 +91,8 @@ fn sweep(root: &Path) {
 fn written_folders(root: &Path) -> Vec<PathBuf> {
     let mut folders = vec![root.join(OWN_FOLDER)];
     for kind in ["clips", "faces"] {
-        let entries = std::fs::read_dir(root.join(kind)).into_iter().flatten().flatten();
-        folders.extend(entries.filter(|e| e.file_type().is_ok_and(|t| t.is_dir())).map(|e| e.path()));
+        let inner = list(&root.join(kind)).unwrap_or_default();
+        folders.extend(inner.into_iter().filter(|path| path.symlink_metadata().is_ok_and(|about| about.is_dir())));
     }
     folders
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::disk::{Fault, Result, inside};
+use crate::disk::{Fault, Result, inside, list};
 
 /// The folder of a video that is pictures.
 pub(super) const FRAMES: &str = "frames";
@@ -21,13 +21,12 @@ pub(super) fn of(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
     if frames.is_dir() {
         return Ok(Some(frames));
     }
-    let entries = std::fs::read_dir(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
+    let paths = list(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
     let is_video = |p: &PathBuf| {
         let extension = p.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
         p.file_stem().is_some_and(|s| s == "video") && VIDEOS.contains(&extension.as_str()) && p.is_file()
     };
-    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(is_video).collect();
-    found.sort();
+    let found: Vec<PathBuf> = paths.into_iter().filter(is_video).collect();
     match found.as_slice() {
         [] => Ok(None),
         [one] => {

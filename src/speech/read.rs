@@ -1,13 +1,12 @@
 //! The way in for every kind of recording: which reader takes it, what is too large, and what is said about the rest.
 
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::kind::{HEAD, Kind, kind};
 use super::mix::Mixed;
 use super::{Sound, decode, wav};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, open};
 
 /// The largest file that is read. Its samples lie in memory.
 const MAX_BYTES: u64 = 2 << 30;
@@ -46,7 +45,7 @@ pub(super) fn read(path: &Path) -> Result<Sound> {
 }
 
 fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
-    let mut file = File::open(path).map_err(|error| Fault::io("cannot open it", path, error))?;
+    let mut file = open(path).map_err(|error| Fault::io("cannot open it", path, error))?;
     let bytes = file.metadata().map_err(broken)?.len();
     if bytes > MAX_BYTES {
         return Err(Fault::new("the file is larger than 2 GB").help("cut the recording into clips"));

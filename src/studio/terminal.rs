@@ -1,5 +1,6 @@
 //! The terminal: taken over, drawn on with one write a frame, and given back however the program ends.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, IsTerminal, Write};
@@ -16,10 +17,11 @@ use crossterm::terminal::{
 };
 use crossterm::{QueueableCommand, queue};
 use ratatui::backend::CrosstermBackend;
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::{Frame, Terminal, TerminalOptions, Viewport};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, clean, printable};
 
 /// Whether the terminal is ours: whoever gives it back first does so, and only once.
 static TAKEN: AtomicBool = AtomicBool::new(false);
@@ -93,7 +95,11 @@ impl Screen {
         let waiting = std::mem::take(&mut *self.gathered.0.borrow_mut());
         self.gathered.queue(BeginSynchronizedUpdate).map_err(fault)?;
         self.gathered.write_all(&waiting).map_err(fault)?;
-        self.terminal.draw(render).map_err(fault)?;
+        let drawn = self.terminal.draw(|frame| {
+            render(frame);
+            clean_cells(frame.buffer_mut());
+        });
+        drawn.map_err(fault)?;
         self.gathered.queue(EndSynchronizedUpdate).map_err(fault)?;
         let bytes = std::mem::take(&mut *self.gathered.0.borrow_mut());
         self.out.write_all(&bytes).map_err(fault)
@@ -103,6 +109,20 @@ impl Screen {
 impl Drop for Screen {
     fn drop(&mut self) {
         give_back();
+    }
+}
+
+/// Frees every cell from what the cleaner knows, for names of files and words of programs are shown as they come. What is
+/// left of a cell keeps its place.
+fn clean_cells(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        let symbol = cell.symbol();
+        // Most are a letter of ASCII.
+        let is_plain = symbol.len() == 1 && !symbol.contains(char::is_control);
+        if !is_plain && matches!(printable(symbol), Cow::Owned(_)) {
+            let left = clean(symbol);
+            cell.set_symbol(if left.is_empty() { " " } else { &left });
+        }
     }
 }
 
@@ -139,4 +159,21 @@ fn give_back_on_panic() {
             }
         }));
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_shows_no_control_character_and_few_marks() {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 6, 1));
+        let flood = format!("e{}", "\u{316}".repeat(3000));
+        for (x, symbol) in ["a", "\u{1b}", "\u{9b}", "\u{202e}", &flood, "▀"].into_iter().enumerate() {
+            buffer[(x as u16, 0)].set_symbol(symbol);
+        }
+        clean_cells(&mut buffer);
+        let shown: Vec<&str> = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        assert_eq!(shown, ["a", " ", " ", " ", &format!("e{}", "\u{316}".repeat(8)), "▀"]);
+    }
 }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use self::show::Show;
-use super::wording;
-use crate::disk::{Fault, Result};
+use super::print;
+use crate::disk::{Fault, Result, shown};
 use crate::drawing::Colour;
 use crate::export::{Dedupe, Event, Format, FrameSet, Observer, Request, Shard, export_projects, shard_of_array};
 use crate::figure::Widths;
@@ -84,7 +84,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let shard = match args.shard {
         Some(shard) => shard,
         None => shard_of_array()?
-            .inspect(|s| wording::note(format!("part {s}, as this job array has it")))
+            .inspect(|s| print::note(format!("part {s}, as this job array has it")))
             .unwrap_or(Shard::WHOLE),
     };
     let stop = Arc::new(AtomicBool::new(false));
@@ -98,10 +98,10 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut event = |event: Event<'_>| {
         show.clear();
         match event {
-            Event::Note(note) => wording::note(note),
+            Event::Note(note) => print::note(note),
             Event::Exported(project, exported) => return show.result(project, several, exported, out),
             // The only project's fault is the call's own.
-            Event::Failed(project, fault) if several => wording::error(Some(&project.display().to_string()), fault),
+            Event::Failed(project, fault) if several => print::error(Some(&shown(project)), fault),
             Event::Failed(..) => {}
         }
         Ok(())

@@ -7,8 +7,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
-use crate::cli::output_fault;
-use crate::disk::Result;
+use crate::cli::print::{self, tell};
+use crate::disk::{Result, printable_json, shown};
 use crate::export::{Exported, Progress, Step};
 
 const FRAMES: &str = "{msg} {bar:30} {pos}/{len} frames  {per_sec}  {eta} left";
@@ -61,7 +61,7 @@ impl Show {
                 line["making"] = what.into();
                 line["clip"] = clip.into();
             }
-            eprintln!("{line}");
+            tell(printable_json(&line.to_string()));
         }
     }
 
@@ -83,31 +83,31 @@ impl Show {
 
     /// Prints where everything is; where there are several lessons, of which one.
     pub(super) fn result(&self, project: &Path, several: bool, exported: &Exported, out: &mut dyn Write) -> Result<()> {
-        let mut say = |text: String| writeln!(out, "{text}").map_err(output_fault);
+        let mut say = |text: String| print::say(out, text);
         for place in &exported.places {
             if !self.json {
-                say(place.path.display().to_string())?;
+                say(shown(&place.path))?;
                 continue;
             }
             let mut line = json!({ "project": named(project), "clip": place.clip, "path": named(&place.path) });
             if place.frames > 0 {
                 line["frames"] = place.frames.into();
             }
-            say(line.to_string())?;
+            say(printable_json(&line.to_string()).into_owned())?;
         }
         let report = exported.report;
         if self.json {
             let totals = json!({ "project": named(project), "written": report.written, "kept": report.kept,
                 "removed": report.removed, "bytes": report.bytes });
-            return say(totals.to_string());
+            return say(printable_json(&totals.to_string()).into_owned());
         }
         let removed = match report.removed {
             0 => String::new(),
             n => format!(", {n} left over from a longer export removed"),
         };
         let files = if report.written == 1 { "file" } else { "files" };
-        let whose = if several { format!("{}: ", project.display()) } else { String::new() };
-        eprintln!("{whose}{} {files} written, {} already there{removed}", report.written, report.kept);
+        let whose = if several { format!("{}: ", shown(project)) } else { String::new() };
+        tell(format_args!("{whose}{} {files} written, {} already there{removed}", report.written, report.kept));
         Ok(())
     }
 }

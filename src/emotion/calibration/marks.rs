@@ -1,14 +1,12 @@
 //! `happy.toml` and its like: the points of a calibration shot, as a person can read and correct them.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use serde::Deserialize;
 
 use crate::disk::{Fault, Result, Task, from_toml, message};
 use crate::emotion::Binding;
-use crate::face::{FeaturePoint, How, MAX_COORDINATE, Placed};
-use crate::geometry::Point;
+use crate::face::{FeaturePoint, Placed, PointRow};
 
 /// The only `format` there is.
 const FORMAT: u32 = 1;
@@ -27,21 +25,7 @@ pub struct Marks {
 struct Table {
     format: u32,
     photo: String,
-    points: BTreeMap<String, Row>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Row {
-    x: f64,
-    y: f64,
-    #[serde(default = "sure")]
-    confidence: f64,
-    how: How,
-}
-
-fn sure() -> f64 {
-    1.0
+    points: BTreeMap<String, PointRow>,
 }
 
 impl Marks {
@@ -50,16 +34,7 @@ impl Marks {
     pub fn to_toml(&self) -> String {
         let mut out = format!("format = {FORMAT}\nphoto = \"{}\"\n\n[points]\n", self.photo);
         for (name, p) in Binding::own_points().zip(&self.points) {
-            let how = match p.how {
-                How::Found => "found",
-                How::Rule => "rule",
-                How::Hand => "hand",
-            };
-            let _ = writeln!(
-                out,
-                "\"{name}\" = {{ x = {:.2}, y = {:.2}, confidence = {:.2}, how = \"{how}\" }}",
-                p.at.x, p.at.y, p.confidence
-            );
+            out.push_str(&PointRow::line(&name.name(), p, 2));
         }
         out
     }
@@ -91,16 +66,7 @@ impl Marks {
                     .line(line(&key))
                     .help("a shot has the points of the face without ears and hair"));
             }
-            if ![row.x, row.y].iter().all(|v| v.abs() <= MAX_COORDINATE) {
-                return Err(Fault::new(format!("point {name} lies nowhere near a photo"))
-                    .line(line(&key))
-                    .help("give pixels of the photo"));
-            }
-            if !(0.0..=1.0).contains(&row.confidence) {
-                return Err(Fault::new(format!("the confidence of point {name} is not from 0 to 1"))
-                    .line(line(&key))
-                    .help("write 1 for a point that you have set, or leave it out"));
-            }
+            row.placed(name).map_err(|fault| fault.line(line(&key)))?;
         }
         let mut points = Vec::with_capacity(known.len());
         for p in known {
@@ -111,7 +77,7 @@ impl Marks {
                     " writes it anew"
                 ])
             })?;
-            points.push(Placed { at: Point::new(row.x, row.y), confidence: row.confidence, how: row.how });
+            points.push(row.placed(&p.name())?);
         }
         Ok(Self { points, photo: table.photo })
     }

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::Cursor;
 use std::path::Path;
 
-use crate::disk::{Fault, Pipe, Result};
+use crate::disk::{Fault, Pipe, Result, read_old, replace};
 use crate::speech::{Sound, write_wav};
 use crate::track::Ffmpeg;
 
@@ -39,7 +39,7 @@ pub(super) fn own(path: &Path) -> Option<Encoded> {
         "m4a" => ("audio/mp4", "m4a"),
         _ => return None,
     };
-    Some(Encoded { mime, extension, bytes: std::fs::read(path).ok()? })
+    Some(Encoded { mime, extension, bytes: read_old(path)? })
 }
 
 /// The WAV file of a sound: 16 bits, one channel, its own rate.
@@ -77,7 +77,7 @@ pub(super) fn encoded(sound: &Sound, encoder: Option<&Ffmpeg>) -> (Encoded, Opti
 fn mp3(sound: &Sound, encoder: &Ffmpeg) -> Result<Vec<u8>> {
     let folder = tempfile::tempdir().map_err(|e| Fault::new(format!("no temporary folder: {e}")))?;
     let (from, to) = (folder.path().join("sound.wav"), folder.path().join("sound.mp3"));
-    std::fs::write(&from, wav(sound)?).map_err(|e| Fault::io("cannot write it", &from, e))?;
+    replace(&from, &wav(sound)?)?;
     let rate = sound.rate.min(RATE).to_string();
     let mut arguments = vec!["-y".into(), "-i".into(), Ffmpeg::file(&from)];
     let plain = ["-map_metadata", "-1", "-ac", "1", "-ar", &rate, "-c:a", "libmp3lame", "-b:a", BITS];
@@ -93,5 +93,5 @@ fn mp3(sound: &Sound, encoder: &Ffmpeg) -> Result<Vec<u8>> {
     if !ended.status.success() {
         return Err(failed());
     }
-    std::fs::read(&to).ok().filter(|bytes| !bytes.is_empty()).ok_or_else(failed)
+    read_old(&to).filter(|bytes| !bytes.is_empty()).ok_or_else(failed)
 }

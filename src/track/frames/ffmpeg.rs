@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::ChildStdout;
 
 use super::y4m::Y4m;
-use crate::disk::{Fault, Pipe, Program, Result, Running, temporary_in};
+use crate::disk::{Fault, Pipe, Program, Result, Running, open, settle, temporary_in};
 
 /// The program, found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl Ffmpeg {
     }
 
     fn read(&self, level: &str, video: &Path, words: Vec<OsString>) -> Result<Reading> {
-        std::fs::File::open(video).map_err(|e| Fault::io("cannot open the video", video, e))?;
+        open(video).map_err(|e| Fault::io("cannot open the video", video, e))?;
         let running = self.start(level, words, Pipe::Output);
         let running = running.map_err(|e| Fault::io("cannot start ffmpeg", self.path(), e))?;
         Ok(Reading { running, video: video.to_owned() })
@@ -178,7 +178,7 @@ pub fn sound_of(video: &Path, out: &Path) -> Result<()> {
     io::copy(&mut output, &mut part.as_file()).map_err(|e| Fault::io("cannot write it", out, e))?;
     reading.ended()?;
     part.as_file().sync_all().map_err(|e| Fault::io("cannot write it", out, e))?;
-    part.persist(out).map_err(|e| Fault::io("cannot write it", out, e.error))?;
+    settle(part.into_temp_path(), out).map_err(|e| Fault::io("cannot write it", out, e))?;
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Coded, Frame};
 use crate::aam::Grey;
-use crate::disk::{Fault, Result, read_bytes};
+use crate::disk::{Fault, Result, list, read_bytes};
 use crate::photo::MAX_PHOTO_BYTES;
 
 /// Endings of the pictures that are frames.
@@ -15,16 +15,15 @@ const MOST: usize = 1_000_000;
 
 /// The pictures of a folder in order. Hidden files and everything that is no picture are passed over.
 pub(super) fn pictures(folder: &Path) -> Result<Vec<PathBuf>> {
-    let entries = std::fs::read_dir(folder).map_err(|e| Fault::io("cannot open the folder of frames", folder, e))?;
+    let paths = list(folder).map_err(|e| Fault::io("cannot open the folder of frames", folder, e))?;
     let mut names: Vec<String> = Vec::new();
-    for entry in entries {
-        let entry = entry.map_err(|e| Fault::io("cannot list the frames", folder, e))?;
-        let Ok(name) = entry.file_name().into_string() else { continue };
+    for path in paths {
+        let Some(name) = path.file_name().and_then(|n| n.to_str()).map(str::to_owned) else { continue };
         let ending = name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase()).unwrap_or_default();
         if name.starts_with('.') || !PICTURES.contains(&ending.as_str()) {
             continue;
         }
-        if entry.file_type().is_ok_and(|t| t.is_symlink()) {
+        if path.is_symlink() {
             return Err(Fault::new("a frame is a link")
                 .at(folder.join(&name))
                 .help("copy the picture itself into the folder: nothing outside it is opened"));

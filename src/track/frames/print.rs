@@ -1,12 +1,11 @@
 //! Whether a video is still the one that was tracked: a fingerprint that is quick to take.
 
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, open};
 
 /// Bytes of a stretch that is looked at.
 const STRETCH: u64 = 16 << 10;
@@ -18,7 +17,7 @@ pub(super) fn fingerprint<'a>(files: impl Iterator<Item = &'a Path>, stretches: 
     let mut bytes = Vec::new();
     for path in files {
         let fault = |e| Fault::io("cannot read it", path, e);
-        let mut file = File::open(path).map_err(fault)?;
+        let mut file = open(path).map_err(fault)?;
         let length = file.metadata().map_err(fault)?.len();
         sum.update(path.file_name().unwrap_or_default().as_encoded_bytes());
         sum.update([0]);

@@ -5,10 +5,12 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use image::ImageReader;
+
 use super::ffmpeg::{Ffmpeg, duration_said};
 use super::y4m::{MAGIC, Scan, Y4m};
 use super::{Frames, MOST_FPS, folder, print};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, Result, open};
 use crate::photo::Photo;
 
 /// A video that can be read.
@@ -45,7 +47,7 @@ impl Source {
         if path.is_dir() {
             return Self::of_folder(path, fps);
         }
-        let mut file = File::open(path).map_err(|e| Fault::io("cannot open the video", path, e))?;
+        let mut file = open(path).map_err(|e| Fault::io("cannot open the video", path, e))?;
         let mut magic = Vec::new();
         let read = file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic);
         read.map_err(|e| Fault::io("cannot read the video", path, e))?;
@@ -69,7 +71,9 @@ impl Source {
         let paths: Arc<[PathBuf]> = folder::pictures(path)?.into();
         let count = paths.len();
         // Of a first picture that is damaged, whoever decodes it says what.
-        let bytes = image::image_dimensions(&paths[0]).map_or(3 << 20, |(w, h)| w as usize * h as usize);
+        let first = open(&paths[0]).and_then(|file| ImageReader::new(BufReader::new(file)).with_guessed_format());
+        let size = first.ok().and_then(|picture| picture.into_dimensions().ok());
+        let bytes = size.map_or(3 << 20, |(w, h)| w as usize * h as usize);
         let duration = Some(count as f64 / fps);
         let kind = Kind::Pictures(path.to_owned(), paths);
         Ok(Self { kind, fps, count: Some(count), duration, bytes, notes: Vec::new() })
@@ -163,7 +167,7 @@ impl Source {
         match &self.kind {
             Kind::Pictures(_, paths) => Ok(Frames::of_pictures(Arc::clone(paths), self.fps, self.bytes)),
             Kind::Plain(path, _) => {
-                let file = File::open(path).map_err(|e| Fault::io("cannot open the video", path, e))?;
+                let file = open(path).map_err(|e| Fault::io("cannot open the video", path, e))?;
                 let mut stream = Y4m::new(BufReader::with_capacity(1 << 20, file)).map_err(|f| f.at(path))?;
                 let path = path.clone();
                 Ok(Frames::of(2 * self.bytes, None, move || stream.next_frame().map_err(|f| f.at(&path))))
@@ -191,7 +195,7 @@ impl Source {
             Kind::Pictures(_, paths) => Photo::read(paths.get(number as usize).ok_or_else(none)?),
             Kind::Plain(path, start) => {
                 let fault = |e| Fault::io("cannot read the video", path, e);
-                let file = File::open(path).map_err(fault)?;
+                let file = open(path).map_err(fault)?;
                 let mut stream = Y4m::new(BufReader::with_capacity(1 << 16, file)).map_err(|f| f.at(path))?;
                 if self.count.is_some() {
                     // Frames of equal length: straight to it.
