@@ -90,7 +90,7 @@ fn a_part_that_is_missing_is_named() {
     assert_eq!(name, "manifest-03-of-12.json");
     fs::remove_file(folder.path().join(name)).unwrap();
     fs::remove_file(folder.path().join("manifest-11-of-12.json")).unwrap();
-    refused(folder.path(), &["parts 3/12, 11/12 of the export are missing", "--shard 3/12"]);
+    refused(folder.path(), &["parts 3/12, 11/12 of the export are missing", "with part 3/12"]);
     assert!(!folder.path().join("manifest.json").exists());
     export(folder.path(), shard(3, 12), "25");
     refused(folder.path(), &["part 11/12 of the export is missing"]);
@@ -104,9 +104,9 @@ fn a_file_that_is_missing_or_damaged_is_named_with_its_part() {
     all_parts(folder.path(), 3);
     let frame = folder.path().join("lesson-2/one/000003.png");
     fs::write(&frame, "2 4").unwrap();
-    refused(folder.path(), &["it is not as it was written", "000003.png", "--shard 3/3"]);
+    refused(folder.path(), &["it is not as it was written", "000003.png", "with part 3/3"]);
     fs::remove_file(&frame).unwrap();
-    refused(folder.path(), &["it was written, but is missing", "000003.png", "--shard 3/3"]);
+    refused(folder.path(), &["it was written, but is missing", "000003.png", "with part 3/3"]);
     export(folder.path(), shard(3, 3), "25");
     merge(folder.path()).unwrap();
 }
@@ -119,7 +119,7 @@ fn a_frame_that_no_part_wrote_is_a_gap() {
     let at = part.files.iter().position(|f| f.path.ends_with("lesson-1/one/000002.png")).unwrap();
     part.files.remove(at);
     part.write(folder.path()).unwrap();
-    refused(folder.path(), &["no part wrote it", "lesson-1/one/000002.png", "--shard 2/3"]);
+    refused(folder.path(), &["no part wrote it", "lesson-1/one/000002.png", "with part 2/3"]);
 }
 
 #[test]

@@ -427,7 +427,7 @@ fn a_moving_picture_is_on_the_disk_before_it_takes_its_place() {
     let calls = fs::read_to_string(&calls).unwrap();
     let calls: Vec<&str> = calls.lines().filter(|l| l.contains("sync(") || l.contains("rename")).collect();
     for form in forms.split(',').filter(|f| *f != "png") {
-        let place = format!("/nihao.{form}\"");
+        let place = format!("nihao.{form}\"");
         let at = calls.iter().position(|l| l.contains("rename") && l.contains(&place)).unwrap();
         let draft = calls[at].split('"').nth(1).unwrap();
         let draft = draft.rsplit('/').next().unwrap();

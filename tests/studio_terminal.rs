@@ -420,7 +420,7 @@ fn studio_and_command_line_export_the_same_bytes_and_notes() {
     terminal.send("e");
     terminal.until("the prompt", |screen| screen.contains("Export"));
     terminal.send("\u{15}srt epub html vtt\r");
-    terminal.until("its end", |screen| screen.contains("files written"));
+    terminal.until("its end", |screen| screen.contains(" written, "));
     let squeeze = |text: &str| text.chars().filter(|c| !c.is_whitespace() && !"│·".contains(*c)).collect::<String>();
     let screen = squeeze(&terminal.screen());
     for note in notes {

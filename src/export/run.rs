@@ -98,11 +98,12 @@ struct Tally {
 }
 
 impl Tally {
-    /// Sets aside what is where a frame goes and is no frame of this program.
+    /// Sets aside what is where a frame goes and is no frame of this program. What was cut off while it was written, such
+    /// as by a power cut, is nobody's work.
     fn make_room(&self, path: &Path) -> Result<()> {
         let is_taken = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-        if is_taken && !is_our_own(path, extension) {
+        if is_taken && !is_our_own(path, extension) && !is_cut_off(path, extension) {
             put_aside(path)?;
             self.aside.fetch_add(1, Ordering::Relaxed);
         }
@@ -340,6 +341,15 @@ fn remove_left_over(job: &Job) -> u32 {
         }
     }
     removed
+}
+
+/// Whether a picture's file lacks its end.
+fn is_cut_off(path: &Path, extension: &str) -> bool {
+    let Some(bytes) = read_old(path) else { return false };
+    match extension {
+        "png" => bytes.is_empty() || (bytes.starts_with(b"\x89PNG") && !bytes.ends_with(b"IEND\xAEB\x60\x82")),
+        _ => !bytes.trim_ascii_end().ends_with(b">"),
+    }
 }
 
 fn is_our_own(path: &Path, extension: &str) -> bool {

@@ -194,7 +194,7 @@ fn take(state: &mut State, number: usize, of: &Standing, asked: bool, alignment:
         many => format!("{many} to look at: d goes there, o lists them"),
     };
     match worst {
-        Some(note) => state.refuse(format!("{which}, but {note}; {rest}")),
+        Some(note) => state.refuse(format!("{which}; {rest}; {note}")),
         None => state.say(format!("{which}; {rest}")),
     }
 }
