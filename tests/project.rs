@@ -4,8 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
+use lianpu::disk::FileFault;
 use lianpu::pose::{Emotion, MouthShape, Ratios};
-use lianpu::project::{Change, Edit, Finding, Lesson, check};
+use lianpu::project::{Change, Edit, Finding, Lesson, ProjectFault, check};
 use lianpu::timeline::{Key, KeyValue, Marker, Range};
 use proptest::prelude::*;
 
@@ -331,4 +332,31 @@ fn keys_sorted(lesson: &Lesson) -> String {
     let mut score = clip.score.clone();
     score.keys.sort_by(|a, b| a.time.total_cmp(&b.time).then(format!("{a:?}").cmp(&format!("{b:?}"))));
     format!("{:?}\n{score:?}\n{:?}", clip.timing, clip.syllables)
+}
+
+#[test]
+fn faults_of_a_lesson_are_told_apart_by_their_kind_and_not_by_their_words() {
+    let (_folder, root) = sample();
+    let lesson = Lesson::read(&root).unwrap();
+    let kind = lesson.clip_named(Some("other")).unwrap_err().kind::<ProjectFault>().copied();
+    assert_eq!(kind, Some(ProjectFault::NoSuchClip));
+    let of_file = |name: &str, text: Option<&[u8]>| {
+        let path = root.join(name);
+        let before = std::fs::read(&path).unwrap();
+        match text {
+            Some(text) => std::fs::write(&path, text).unwrap(),
+            None => std::fs::remove_file(&path).unwrap(),
+        }
+        let fault = Lesson::read(&root).unwrap_err();
+        std::fs::write(&path, before).unwrap();
+        assert!(fault.path().is_some_and(|p| p.ends_with(name)), "{fault}");
+        (fault.kind::<FileFault>().copied(), fault.kind::<ProjectFault>().copied())
+    };
+    let file = |kind| (Some(kind), None);
+    assert_eq!(of_file("lianpu.toml", None), (None, Some(ProjectFault::NoProject)));
+    assert_eq!(of_file("lianpu.toml", Some(b"format = 7\ntitle = \"x\"\n")), file(FileFault::Version));
+    assert_eq!(of_file("lianpu.toml", Some(b"format =\n")), file(FileFault::Malformed));
+    assert_eq!(of_file("clips/nihao/script.txt", Some(b"\xB1\x7A")), file(FileFault::Encoding));
+    let cut = b"File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n1.6\n<exists>\n1\n\"Int";
+    assert_eq!(of_file("clips/nihao/timing.TextGrid", Some(cut)), file(FileFault::CutOff));
 }

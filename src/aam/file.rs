@@ -25,7 +25,7 @@ use super::model::{Model, Parts};
 use super::shape::Shapes;
 use super::trust::Trust;
 use crate::aam::annotation::MAX_POINTS;
-use crate::disk::{Fault, Result, Task, message, read_bytes, write_output};
+use crate::disk::{Fault, FileFault, Result, Task, message, read_bytes, write_output};
 
 const MAGIC: &[u8; 4] = b"LPAM";
 const VERSION: u32 = 1;
@@ -78,11 +78,12 @@ impl Model {
             Fault::new("the model is damaged").help(message!["copy it again, or make it again by ", Task::TrainModel])
         };
         if !bytes.starts_with(MAGIC) {
-            return Err(Fault::new("this is not a trained model").help(message!["make one by ", Task::TrainModel]));
+            return Err(Fault::of(FileFault::Unsupported, "this is not a trained model")
+                .help(message!["make one by ", Task::TrainModel]));
         }
         let version = bytes.get(4..8).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
         if let Some(v) = version.filter(|v| *v != VERSION) {
-            return Err(Fault::new(format!("the model is of version {v}, and {VERSION} is known"))
+            return Err(Fault::of(FileFault::Version, format!("the model is of version {v}, and {VERSION} is known"))
                 .help("train it again with this program"));
         }
         let (body, sum) = bytes.split_last_chunk::<4>().ok_or_else(damaged)?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::annotation::Annotation;
 use super::grey::Grey;
-use crate::disk::{Fault, Result, inside, list};
+use crate::disk::{Fault, FileFault, Result, inside, list};
 use crate::geometry::Point;
 
 /// A picture and the points in it.
@@ -42,12 +42,12 @@ impl Shot {
                 let path = picture_of(folder, file, &annotation)?;
                 let boxed = annotation.face.is_some();
                 if !seen.insert(path.clone()) && !boxed {
-                    return Err(Fault::new("a picture is annotated twice")
+                    return Err(Fault::of(FileFault::Duplicate, "a picture is annotated twice")
                         .at(&path)
                         .help("keep one annotation a picture in the folder"));
                 }
                 if shots.len() == MOST {
-                    return Err(Fault::new(format!("there are more than {MOST} pictures"))
+                    return Err(Fault::of(FileFault::TooLarge, format!("there are more than {MOST} pictures"))
                         .at(folder)
                         .help("take fewer"));
                 }
@@ -57,7 +57,7 @@ impl Shot {
             }
         }
         if shots.is_empty() {
-            return Err(Fault::new("there are no annotated pictures")
+            return Err(Fault::of(FileFault::Empty, "there are no annotated pictures")
                 .at(folder)
                 .help("put pictures and their .pts, .asf or dlib .xml there"));
         }
@@ -88,7 +88,7 @@ fn picture_of(folder: &Path, file: &Path, annotation: &Annotation) -> Result<Pat
     let beside = PICTURES.iter().map(|e| stem.with_extension(e)).find(|p| p.is_file());
     beside.ok_or_else(|| {
         let name = annotation.picture.clone().unwrap_or_else(|| stem.with_extension("jpg").display().to_string());
-        Fault::new(format!("the picture of an annotation is missing: `{name}`"))
+        Fault::of(FileFault::Missing, format!("the picture of an annotation is missing: `{name}`"))
             .at(file)
             .help("put it beside its annotation")
     })

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use super::record::{Entry, RECORD, Record};
 use super::recover::{End, Unfinished};
-use super::{Calls, Fault, Result, Rights, Sum};
+use super::{Calls, Fault, FileFault, Result, Rights, Sum};
 
 /// The sums that a commit gives its files; none for those that it removes.
 pub type Sums = BTreeMap<PathBuf, Option<Sum>>;
@@ -236,7 +236,9 @@ impl<'a> Commit<'a> {
     fn entry(&self, file: &Planned, temporary: Option<&Path>) -> Result<Entry> {
         let below = file.path.strip_prefix(self.root).ok().and_then(Path::to_str);
         let Some(path) = below else {
-            return Err(Fault::new("the file is not in the project's folder").at(&file.path).help("move it there"));
+            return Err(Fault::of(FileFault::Outside, "the file is not in the project's folder")
+                .at(&file.path)
+                .help("move it there"));
         };
         Ok(Entry {
             path: path.replace(std::path::MAIN_SEPARATOR, "/"),
@@ -259,7 +261,10 @@ fn cannot_save(path: &Path, error: std::io::Error) -> Fault {
 }
 
 fn foreign(path: &Path) -> Fault {
-    Fault::new("the file was changed by something else since the lesson was opened, and is left as it is")
-        .at(path)
-        .help("move it aside and save again to keep yours, or leave without saving and open the lesson again")
+    Fault::of(
+        FileFault::Changed,
+        "the file was changed by something else since the lesson was opened, and is left as it is",
+    )
+    .at(path)
+    .help("move it aside and save again to keep yours, or leave without saving and open the lesson again")
 }

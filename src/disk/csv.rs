@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use csv::{ReaderBuilder, StringRecord, Terminator};
 
-use super::{Fault, Result};
+use super::{Fault, FileFault, Result};
 
 /// A table whose first row names its columns.
 #[derive(Debug, Default)]
@@ -43,7 +43,8 @@ impl CsvTable {
         let mut table = Self::default();
         for record in reader.records() {
             // Neither memory nor UTF-8 text fails to be read.
-            let cells = record.map_err(|error| Fault::new(format!("the table cannot be read: {error}")))?;
+            let cells = record
+                .map_err(|error| Fault::of(FileFault::OutOfRange, format!("the table cannot be read: {error}")))?;
             if cells.len() == 1 && !cells[0].is_empty() && cells[0].trim().is_empty() {
                 continue;
             }
@@ -129,7 +130,7 @@ fn with_quotes_first(text: &str) -> Result<Cow<'_, str>> {
         out.push(c);
     }
     if at == At::Quoted {
-        return Err(Fault::new("the file ends inside a label in quotes")
+        return Err(Fault::of(FileFault::CutOff, "the file ends inside a label in quotes")
             .line(opened)
             .help("the quote opened here is never closed; a quote inside a label is written twice"));
     }

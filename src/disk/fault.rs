@@ -5,13 +5,10 @@ use std::error::Error;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{Message, NextStep, printable, shown};
+use super::{FaultKind, FileFault, Message, NextStep, printable, shown};
 
 /// What every reading room returns.
 pub type Result<T, E = Fault> = std::result::Result<T, E>;
-
-/// A room's enum of faults, matched by programs: `fault.kind::<ExportFault>()`.
-pub trait FaultKind: Any + fmt::Debug + Send + Sync {}
 
 /// Something in the input is wrong. Prints as up to three lines: what, where, what to do. The next step is a [`Message`]:
 /// a face words it with its own commands or keys by [`Fault::worded`].
@@ -25,9 +22,9 @@ pub trait FaultKind: Any + fmt::Debug + Send + Sync {}
 pub struct Fault(Box<Inner>);
 
 /// The parts of a fault, in a box: results are small where nothing is wrong.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Inner {
-    kind: Option<Box<dyn FaultKind>>,
+    kind: Box<dyn FaultKind>,
     what: String,
     path: Option<PathBuf>,
     line: Option<usize>,
@@ -38,22 +35,30 @@ struct Inner {
 }
 
 impl Fault {
-    /// What was found, in one line, with the offending text in backticks.
+    /// What was found, in one line, with the offending text in backticks; of the kind [`FileFault::Malformed`].
     #[must_use]
     pub fn new(what: impl Into<String>) -> Self {
-        Self(Box::new(Inner { what: what.into(), ..Inner::default() }))
+        Self::of(FileFault::default(), what)
     }
 
     /// A fault of a kind, found in one line, with the offending text in backticks.
     #[must_use]
     pub fn of(kind: impl FaultKind, what: impl Into<String>) -> Self {
-        Self(Box::new(Inner { kind: Some(Box::new(kind)), what: what.into(), ..Inner::default() }))
+        Self(Box::new(Inner {
+            kind: Box::new(kind),
+            what: what.into(),
+            path: None,
+            line: None,
+            help: Message::default(),
+            call: false,
+            source: None,
+        }))
     }
 
     /// A failed operation on a file, with the system's own word as the source.
     #[must_use]
     pub fn io(doing: &str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
-        let mut fault = Self::new(format!("{doing}: {source}")).at(path);
+        let mut fault = Self::of(FileFault::from(source.kind()), format!("{doing}: {source}")).at(path);
         fault.0.source = Some(Box::new(source));
         fault
     }
@@ -86,6 +91,20 @@ impl Fault {
         self
     }
 
+    /// The same fault, of a part that was read by itself, with the part's place in the whole and no other.
+    #[must_use]
+    pub fn in_part(mut self, part: impl fmt::Display) -> Self {
+        self.0.what = format!("{part}: {}", self.0.what);
+        self.without_place()
+    }
+
+    /// The same fault without its file and line.
+    #[must_use]
+    pub fn without_place(mut self) -> Self {
+        (self.0.path, self.0.line) = (None, None);
+        self
+    }
+
     /// Marks the request, not the input, as what was wrong.
     #[must_use]
     pub fn of_the_call(mut self) -> Self {
@@ -102,7 +121,7 @@ impl Fault {
     /// Its kind, where it is of the room whose enum is `K`.
     #[must_use]
     pub fn kind<K: FaultKind>(&self) -> Option<&K> {
-        let kind: &dyn Any = self.0.kind.as_deref()?;
+        let kind: &dyn Any = &*self.0.kind;
         kind.downcast_ref()
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::{Fault, Result};
+use super::{Fault, FileFault, Result};
 
 /// The file that `relative` names inside `root`. Refuses absolute paths, `..`, and links that lead out, so that a
 /// manifest can open nothing outside its own folder.
@@ -13,7 +13,7 @@ pub fn inside(root: &Path, relative: &str) -> Result<PathBuf> {
     let path = Path::new(relative);
     let leaves = path.components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
     if leaves || relative.is_empty() {
-        return Err(Fault::new(format!("`{relative}` leads out of the project's folder"))
+        return Err(Fault::of(FileFault::Outside, format!("`{relative}` leads out of the project's folder"))
             .help("give a path inside it, without `..` and not starting with `/`"));
     }
     let full = root.join(path);
@@ -30,7 +30,7 @@ pub fn inside(root: &Path, relative: &str) -> Result<PathBuf> {
     if real.starts_with(&real_root) {
         Ok(full)
     } else {
-        Err(Fault::new(format!("`{relative}` is a link that leads out of the project's folder"))
+        Err(Fault::of(FileFault::Outside, format!("`{relative}` is a link that leads out of the project's folder"))
             .at(&full)
             .help("copy the file into the project instead"))
     }
@@ -49,7 +49,7 @@ pub fn plain_name(name: &str) -> Result<()> {
     if fine {
         Ok(())
     } else {
-        Err(Fault::new(format!("`{name}` cannot be a name here"))
+        Err(Fault::of(FileFault::OutOfRange, format!("`{name}` cannot be a name here"))
             .help("use letters, digits, `-`, `_` and `.`, at most 100 bytes, not starting with a dot"))
     }
 }

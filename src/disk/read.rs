@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use super::{Fault, Result, clean, door};
+use super::{Fault, FileFault, Result, clean, door};
 
 /// The largest text file that is read. A lesson of an hour, phones included, is below 2 MB.
 pub const MAX_TEXT_BYTES: u64 = 64 << 20;
@@ -17,7 +17,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| Fault::io("cannot read it", path, e))?;
     if bytes.len() as u64 > limit {
-        return Err(Fault::new(format!("the file is larger than {} MB", limit >> 20))
+        return Err(Fault::of(FileFault::TooLarge, format!("the file is larger than {} MB", limit >> 20))
             .at(path)
             .help("files of this kind are far smaller; is it the right one?"));
     }
@@ -45,7 +45,10 @@ pub fn read_text(path: &Path) -> Result<String> {
         Ok(text) => Ok(clean(text)),
         Err(error) => {
             let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-            Err(Fault::new("the file is not UTF-8 text").at(path).line(line).help("save it as UTF-8 and try again"))
+            Err(Fault::of(FileFault::Encoding, "the file is not UTF-8 text")
+                .at(path)
+                .line(line)
+                .help("save it as UTF-8 and try again"))
         }
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Fault, Result, Sum, inside, is_temporary, read_bytes};
+use super::{Fault, FileFault, Result, Sum, inside, is_temporary, read_bytes};
 
 /// The record's file, in the program's own folder.
 pub(super) const RECORD: &str = "commit";
@@ -40,8 +40,8 @@ pub(super) struct Record {
 impl Record {
     /// Its line.
     pub(super) fn to_line(&self) -> Result<String> {
-        let json =
-            serde_json::to_string(self).map_err(|e| Fault::new(format!("the commit cannot be recorded: {e}")))?;
+        let json = serde_json::to_string(self)
+            .map_err(|e| Fault::of(FileFault::OutOfRange, format!("the commit cannot be recorded: {e}")))?;
         Ok(format!("{:08x} {json}\n", crc32fast::hash(json.as_bytes())))
     }
 

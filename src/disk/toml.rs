@@ -2,7 +2,7 @@
 
 use serde::de::DeserializeOwned;
 
-use super::{Fault, Result, suggestion};
+use super::{Fault, FileFault, Result, suggestion};
 
 /// Reads a TOML text into a type that refuses unknown keys.
 ///
@@ -13,12 +13,11 @@ pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T> {
         let line = error.span().map(|s| 1 + text[..s.start.min(text.len())].matches('\n').count());
         let message = error.message().trim();
         let fault = match unknown(message) {
-            Some((what, word, known)) => {
-                Fault::new(format!("unknown {what} `{word}`")).help(suggestion(word, "known here", &known))
-            }
+            Some((what, word, known)) => Fault::of(FileFault::Unknown, format!("unknown {what} `{word}`"))
+                .help(suggestion(word, "known here", &known)),
             None if message.starts_with("missing field") => {
                 let key = message.split('`').nth(1).unwrap_or_default();
-                Fault::new(format!("there is no `{key}`")).help(match key {
+                Fault::of(FileFault::Missing, format!("there is no `{key}`")).help(match key {
                     // The only value there is so far, so a beginner need not look for it.
                     "format" => "add `format = 1` at the top".to_owned(),
                     _ => format!("add `{key} = …`"),

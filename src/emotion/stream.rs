@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader, Cursor, Read};
 
 use super::lpr::LPR_FIRST;
 use super::{LprReader, Moment, Record};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// A line of CSV, or a frame of JSON, has at most so many bytes.
 const LONGEST: usize = 64 << 10;
@@ -38,9 +38,8 @@ impl<R: Read> RecordReader<R> {
             let mut byte = [0];
             match input.read(&mut byte) {
                 Ok(0) => {
-                    return Err(
-                        Fault::new("no record came").help("pipe ratios.csv, its JSON or a compact record into it")
-                    );
+                    return Err(Fault::of(FileFault::Empty, "no record came")
+                        .help("pipe ratios.csv, its JSON or a compact record into it"));
                 }
                 Ok(_) => start.push(byte[0]),
                 Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
@@ -104,14 +103,14 @@ impl<R: Read> Form<R> {
             Self::Csv { input, header, line } => {
                 let Some(row) = line_of(input, line)? else { return Ok(None) };
                 let record =
-                    Record::parse(&format!("{header}\n{row}")).map_err(|f| placed(&f, &format!("line {line}")))?;
+                    Record::parse(&format!("{header}\n{row}")).map_err(|f| placed(f, &format!("line {line}")))?;
                 Ok(record.rows.first().map(|row| Moment { row: *row, track: None }))
             }
             Self::Json { input, entry, is_array } => {
                 *entry += 1;
                 let Some(object) = object_of(input, *is_array)? else { return Ok(None) };
                 let record = Record::parse_json(&format!("[{object}]"))
-                    .map_err(|f| placed(&f, &format!("frame {entry} of the array")))?;
+                    .map_err(|f| placed(f, &format!("frame {entry} of the array")))?;
                 Ok(record.rows.first().map(|row| Moment { row: *row, track: None }))
             }
             Self::Over => Ok(None),
@@ -120,8 +119,9 @@ impl<R: Read> Form<R> {
 }
 
 /// A fault of a part read by itself, with its place in the whole.
-fn placed(fault: &Fault, place: &str) -> Fault {
-    Fault::new(format!("{place}: {}", fault.what().trim_start_matches("entry 1: "))).help(fault.advice())
+fn placed(fault: Fault, place: &str) -> Fault {
+    let what = fault.what().trim_start_matches("entry 1: ").to_owned();
+    fault.rephrased(what).in_part(place)
 }
 
 /// The next line that is not empty, and its number.
@@ -134,7 +134,7 @@ fn line_of(input: &mut impl BufRead, number: &mut usize) -> Result<Option<String
         }
         *number += 1;
         if bytes.len() >= LONGEST {
-            return Err(Fault::new(format!("line {number} has no end")).help("is it a ratio record?"));
+            return Err(Fault::of(FileFault::CutOff, format!("line {number} has no end")).help("is it a ratio record?"));
         }
         let text = crate::disk::clean(&String::from_utf8_lossy(&bytes));
         if !text.trim().is_empty() {
@@ -150,8 +150,8 @@ fn object_of(input: &mut impl BufRead, is_array: bool) -> Result<Option<String>>
     loop {
         match input.read(&mut byte) {
             Ok(0) if bytes.is_empty() && !is_array => return Ok(None),
-            Ok(0) if bytes.is_empty() => return Err(Fault::new("the array of frames is cut off")),
-            Ok(0) => return Err(Fault::new("the last frame is cut off")),
+            Ok(0) if bytes.is_empty() => return Err(Fault::of(FileFault::CutOff, "the array of frames is cut off")),
+            Ok(0) => return Err(Fault::of(FileFault::CutOff, "the last frame is cut off")),
             Ok(_) => {}
             Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
             Err(error) => return Err(cannot(error)),
@@ -176,7 +176,7 @@ fn object_of(input: &mut impl BufRead, is_array: bool) -> Result<Option<String>>
             _ => {}
         }
         if bytes.len() > LONGEST {
-            return Err(Fault::new("a frame of the array has no end").help("is it a ratio record?"));
+            return Err(Fault::of(FileFault::CutOff, "a frame of the array has no end").help("is it a ratio record?"));
         }
     }
 }

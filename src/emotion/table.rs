@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value};
 
-use crate::disk::{CsvTable, Fault, Result, nearest};
+use crate::disk::{CsvTable, Fault, FileFault, Result, nearest};
 
 /// The latest time a row may have, in seconds: 100 hours, far beyond any lesson.
 const MAX_SECONDS: f64 = 360_000.0;
@@ -50,7 +50,8 @@ pub(super) fn from_csv(text: &str, columns: &[&str]) -> Result<Vec<Line>> {
     let table = CsvTable::read(text)?;
     let names: Vec<&str> = table.names.iter().map(String::as_str).collect();
     if names.is_empty() {
-        return Err(Fault::new("the file is empty").help(format!("its first line must be `{}`", columns.join(","))));
+        return Err(Fault::of(FileFault::Empty, "the file is empty")
+            .help(format!("its first line must be `{}`", columns.join(","))));
     }
     let places = columns
         .iter()
@@ -102,7 +103,8 @@ pub(super) fn from_json(text: &str, columns: &[&str]) -> Result<Vec<Line>> {
 /// What holds for every such table: there are rows, frames are whole and rise, times rise, and nothing is absurd.
 fn checked(rows: Vec<Line>, columns: &[&str]) -> Result<Vec<Line>> {
     if rows.is_empty() {
-        return Err(Fault::new("the file has no rows").help("there is nothing to read: was it written to the end?"));
+        return Err(Fault::of(FileFault::Empty, "the file has no rows")
+            .help("there is nothing to read: was it written to the end?"));
     }
     for row in &rows {
         let (frame, time) = (row.cells[0], row.cells[1]);
@@ -152,7 +154,7 @@ fn no_number(place: Place, found: &str, column: &str) -> Fault {
 fn missing(column: &str, names: &[&str], columns: &[&str]) -> Fault {
     let others: Vec<&str> = names.iter().copied().filter(|name| !columns.contains(name)).collect();
     let in_capitals = others.iter().copied().find(|name| name.eq_ignore_ascii_case(column));
-    let fault = Fault::new(format!("the column `{column}` is missing"));
+    let fault = Fault::of(FileFault::Missing, format!("the column `{column}` is missing"));
     match in_capitals.or_else(|| nearest(column, &others)) {
         Some(name) => fault.help(format!("is `{name}` meant to be it?")),
         None => fault.help(format!("the columns are {}", columns.join(","))),

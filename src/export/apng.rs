@@ -6,6 +6,7 @@
 use std::io::{Seek, SeekFrom, Write};
 use std::path::Path;
 
+use super::ExportFault;
 use super::cels::{self, Area};
 use super::draft::{Draft, write_fault};
 use super::palette::Palette;
@@ -48,7 +49,8 @@ pub fn write(path: &Path, frames: &mut dyn Frames, form: ApngForm, watch: &Watch
     let rate = Rate::new(form.fps)?;
     let size = frames.size();
     if frames.count() == 0 {
-        return Err(Fault::new("there are no frames to be shown").help("give the clip a recording, times or keys"));
+        return Err(Fault::of(ExportFault::NoFrames, "there are no frames to be shown")
+            .help("give the clip a recording, times or keys"));
     }
     let mut pixels = match form.depth {
         Depth::Palette if form.opaque => Pixels::Through(Palette::learn(frames, 255, Some)?, Vec::new()),
@@ -193,7 +195,8 @@ impl Pixels {
             writer.write_image_data(&data)?;
             writer.finish()
         })();
-        encoded.map_err(|e| Fault::new(format!("the picture cannot be written as PNG: {e}")))?;
+        encoded
+            .map_err(|e| Fault::of(ExportFault::CannotWrite, format!("the picture cannot be written as PNG: {e}")))?;
         Ok(Parts { over: matches!(self, Self::Through(..)), ..Parts::of(&file) })
     }
 }

@@ -10,8 +10,8 @@ use sha2::{Digest, Sha256};
 use super::manifest::{add_content, hex};
 use super::plan::{checked_output, chosen_clips, frames_asked, out_folder, root_folder, texts_of};
 use super::whole::TOGETHER;
-use super::{Asked, Format, Request, wholes};
-use crate::disk::{self, Fault, Result, Setting, message};
+use super::{Asked, ExportFault, Format, Request, wholes};
+use crate::disk::{self, Fault, FileFault, Result, Setting, message};
 use crate::project::Lesson;
 use crate::render::REVISION;
 
@@ -47,9 +47,12 @@ pub fn asked(lesson: &Lesson, request: &Request) -> Result<Vec<Asked>> {
         });
     }
     if request.clip.as_deref() == Some(TOGETHER) && request.formats.iter().any(|f| f.is_of_the_lesson()) {
-        return Err(Fault::new(format!("the page of the clip `{TOGETHER}` would take the name of the whole lesson's"))
-            .help(message!["rename the clip, or leave out ", Setting::Clip])
-            .of_the_call());
+        return Err(Fault::of(
+            ExportFault::NamesClash,
+            format!("the page of the clip `{TOGETHER}` would take the name of the whole lesson's"),
+        )
+        .help(message!["rename the clip, or leave out ", Setting::Clip])
+        .of_the_call());
     }
     check_names(&all, request.by_project && request.out.is_some())?;
     Ok(all)
@@ -71,7 +74,9 @@ fn project_name(lesson: &Lesson) -> Result<String> {
     let Some(name) = full.file_name() else { return Ok(String::new()) };
     let name = name.to_str().map(str::to_owned);
     name.ok_or_else(|| {
-        Fault::new("the folder's name is not in UTF-8, which a manifest's must be").at(&full).help("rename the folder")
+        Fault::of(FileFault::Encoding, "the folder's name is not in UTF-8, which a manifest's must be")
+            .at(&full)
+            .help("rename the folder")
     })
 }
 
@@ -157,15 +162,18 @@ fn check_names(all: &[Asked], by_project: bool) -> Result<()> {
     let mut seen = HashSet::new();
     for path in all.iter().flat_map(|a| &a.whole) {
         if is_manifest(path) || folders.contains(path) || !seen.insert(path) {
-            return Err(Fault::new(format!("two files of this export, or a file and a folder, would be `{path}`"))
-                .help(message![
-                    "export the formats or clips one by one with ",
-                    Setting::Clip,
-                    " and ",
-                    Setting::Out,
-                    ", or rename a clip"
-                ])
-                .of_the_call());
+            return Err(Fault::of(
+                ExportFault::NamesClash,
+                format!("two files of this export, or a file and a folder, would be `{path}`"),
+            )
+            .help(message![
+                "export the formats or clips one by one with ",
+                Setting::Clip,
+                " and ",
+                Setting::Out,
+                ", or rename a clip"
+            ])
+            .of_the_call());
         }
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::ExportFault;
 use super::stream::{Frames, Outcome, Watch};
 use crate::disk::{Fault, Result};
 
@@ -85,7 +86,8 @@ pub(super) fn each(
 ) -> Result<Outcome> {
     let (size, count) = (frames.size(), frames.count());
     if count == 0 || size[0] == 0 || size[1] == 0 {
-        return Err(Fault::new("there are no frames to be shown").help("give the clip a recording, times or keys"));
+        return Err(Fault::of(ExportFault::NoFrames, "there are no frames to be shown")
+            .help("give the clip a recording, times or keys"));
     }
     frames.show(0)?;
     let mut shown = pixels(frames, size)?.to_vec();

@@ -4,7 +4,7 @@
 use std::env;
 use std::ops::Range;
 
-use super::Shard;
+use super::{ExportFault, Shard};
 use crate::disk::{Fault, Result, Setting, message};
 
 /// One clip's share in a part of an export.
@@ -68,7 +68,7 @@ fn shard_from(variable: impl Fn(&str) -> Option<String>) -> Result<Option<Shard>
         Shard::new(above / step + 1, count)
     })();
     shard.map(Some).ok_or_else(|| {
-        Fault::new(format!("it cannot be told which part task {own} of this job array is to do"))
+        Fault::of(ExportFault::Division, format!("it cannot be told which part task {own} of this job array is to do"))
             .help(message![
                 "say it with ",
                 Setting::Shard.of("I/N"),

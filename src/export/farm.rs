@@ -7,6 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::str::FromStr;
 
+use super::ExportFault;
 use crate::disk::{Fault, Result};
 
 /// The most tasks of a job: what Slurm takes in an array unless its keeper allows more.
@@ -203,7 +204,7 @@ seq {tasks} | sed 's/.*/sh -c \"$LIANPU_TASK\" task &/' | parallel --env LIANPU_
 /// A path as text that can stand in a job of this engine.
 fn text_of(path: &Path, engine: Engine) -> Result<&str> {
     let fault = |what: &str| {
-        Fault::new(format!("a job cannot name `{}`: it {what}", path.display()))
+        Fault::of(ExportFault::Division, format!("a job cannot name `{}`: it {what}", path.display()))
             .help("give it another name")
             .of_the_call()
     };

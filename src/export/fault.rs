@@ -8,6 +8,8 @@ use crate::disk::FaultKind;
 pub enum ExportFault {
     /// Two files of an export, a file and a folder, or two projects would have the same name.
     NamesClash,
+    /// There is nothing to be shown in moving pictures.
+    NoFrames,
     /// The clip has no such frame.
     NoSuchFrame,
     /// The ratios of a clip with a video are neither in its record nor found in the video.

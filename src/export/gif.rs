@@ -9,6 +9,7 @@ use std::path::Path;
 
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
+use super::ExportFault;
 use super::cels::{self, Area, Cel, changed};
 use super::draft::{Draft, write_fault};
 use super::palette::Palette;
@@ -42,10 +43,11 @@ pub fn write(path: &Path, frames: &mut dyn Frames, form: GifForm, watch: &Watch<
     let size = frames.size();
     let sides = size.map(|side| u16::try_from(side).ok().filter(|s| *s > 0));
     let [Some(width), Some(height)] = sides else {
-        return Err(Fault::new(format!("a GIF cannot be {} × {} pixels", size[0], size[1])));
+        return Err(Fault::of(ExportFault::TooLarge, format!("a GIF cannot be {} × {} pixels", size[0], size[1])));
     };
     if frames.count() == 0 {
-        return Err(Fault::new("there are no frames to be shown").help("give the clip a recording, times or keys"));
+        return Err(Fault::of(ExportFault::NoFrames, "there are no frames to be shown")
+            .help("give the clip a recording, times or keys"));
     }
     let flat = |colour| flattened(colour, form.matte);
     let palette = Palette::learn(frames, usize::from(THROUGH), flat)?;
@@ -107,7 +109,7 @@ fn flattened([r, g, b, a]: [u8; 4], matte: Colour) -> Option<[u8; 4]> {
 fn encoding_fault(path: &Path, error: EncodingError) -> Fault {
     match error {
         EncodingError::Io(error) => write_fault(path, error),
-        error => Fault::new(format!("the GIF cannot be written: {error}")).at(path),
+        error => Fault::of(ExportFault::CannotWrite, format!("the GIF cannot be written: {error}")).at(path),
     }
 }
 

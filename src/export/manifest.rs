@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::Shard;
+use super::{ExportFault, Shard};
 use crate::disk::{self, Fault, Result, read_bytes, read_old, write_whole};
 
 /// The largest manifest that is read: a million frames have 150 MB.
@@ -222,12 +222,16 @@ impl Manifest {
     /// When the file cannot be read or is no manifest of this version.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = read_bytes(path, MAX_BYTES)?;
-        let damaged = |what: String| Fault::new(what).at(path).help("remove it and run the export it belongs to again");
+        let damaged = |what: String| {
+            Fault::of(ExportFault::Manifest, what).at(path).help("remove it and run the export it belongs to again")
+        };
         let read: Self = serde_json::from_slice(&bytes)
             .map_err(|e| damaged(format!("this is no manifest of an export: {e}")).line(e.line().max(1)))?;
         if read.format != FORMAT {
             let newer = format!("the manifest has form {}, this program reads form {FORMAT}", read.format);
-            return Err(Fault::new(newer).at(path).help("use the version of the program that wrote it"));
+            return Err(Fault::of(ExportFault::Manifest, newer)
+                .at(path)
+                .help("use the version of the program that wrote it"));
         }
         read.part().map_err(|f| damaged(f.what().to_owned()))?;
         let leads_out = |p: &str| {
@@ -288,5 +292,6 @@ impl Manifest {
 }
 
 fn json_of<T: Serialize>(value: &T) -> Result<String> {
-    serde_json::to_string(value).map_err(|e| Fault::new(format!("the manifest cannot be written: {e}")))
+    serde_json::to_string(value)
+        .map_err(|e| Fault::of(ExportFault::Manifest, format!("the manifest cannot be written: {e}")))
 }

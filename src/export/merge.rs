@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::manifest::{Entry, Manifest};
-use super::{Shard, divide};
+use super::{ExportFault, Shard, divide};
 use crate::disk::{self, Fault, Message, Result, Setting, Task, clear_temporaries, message};
 
 /// What joining found.
@@ -33,11 +33,13 @@ pub fn merge(folder: &Path) -> Result<Merged> {
     if found.is_empty() {
         let path = folder.join(Manifest::name(Shard::WHOLE));
         if !path.is_file() {
-            return Err(Fault::new("there is no manifest of an export here").at(folder).help(message![
-                "give the folder that ",
-                Task::Export.with(Setting::Shard, "I/N"),
-                " wrote into, once its parts are done"
-            ]));
+            return Err(Fault::of(ExportFault::Manifest, "there is no manifest of an export here").at(folder).help(
+                message![
+                    "give the folder that ",
+                    Task::Export.with(Setting::Shard, "I/N"),
+                    " wrote into, once its parts are done"
+                ],
+            ));
         }
         let whole = Manifest::read(&path)?;
         check_asked(folder, &whole, &whole.files, 1)?;
@@ -89,13 +91,16 @@ fn all_parts(folder: &Path, found: Vec<(PathBuf, Manifest)>) -> Result<Vec<Manif
         let shard = manifest.part()?;
         let name = Manifest::name(shard);
         if path.file_name().is_none_or(|n| n != name.as_str()) {
-            return Err(Fault::new(format!("the manifest says that it is part {shard}, which its name does not"))
-                .at(&path)
-                .help("remove it; its part says so if it has to be run again"));
+            return Err(Fault::of(
+                ExportFault::Manifest,
+                format!("the manifest says that it is part {shard}, which its name does not"),
+            )
+            .at(&path)
+            .help("remove it; its part says so if it has to be run again"));
         }
         if *count.get_or_insert(shard.count()) != shard.count() {
             let other = count.unwrap_or_default();
-            return Err(Fault::new(format!("parts of two exports are mixed: of {other} and of {}", shard.count()))
+            return Err(Fault::of(ExportFault::Parts, format!("parts of two exports are mixed: of {other} and of {}", shard.count()))
                 .at(&path)
                 .help(format!(
                     "remove the older ones' manifests, `manifest-*-of-{other}.json` or `manifest-*-of-{}.json`; frames that \
@@ -112,9 +117,12 @@ fn all_parts(folder: &Path, found: Vec<(PathBuf, Manifest)>) -> Result<Vec<Manif
         let names: Vec<String> = missing.iter().take(20).map(Shard::to_string).collect();
         let more = if missing.len() > 20 { format!(" and {} more", missing.len() - 20) } else { String::new() };
         let (noun, verb) = if missing.len() == 1 { ("part", "is") } else { ("parts", "are") };
-        return Err(Fault::new(format!("{noun} {}{more} of the export {verb} missing or not done", names.join(", ")))
-            .at(folder)
-            .help(again(first)));
+        return Err(Fault::of(
+            ExportFault::Parts,
+            format!("{noun} {}{more} of the export {verb} missing or not done", names.join(", ")),
+        )
+        .at(folder)
+        .help(again(first)));
     }
     let mut parts = parts.into_values();
     let Some((first_path, first)) = parts.next() else { return Ok(Vec::new()) };
@@ -129,9 +137,12 @@ fn all_parts(folder: &Path, found: Vec<(PathBuf, Manifest)>) -> Result<Vec<Manif
         if let Some(what) = differs {
             let shard = part.part()?;
             let name = first_path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-            return Err(Fault::new(format!("part {shard} is of another export than `{name}`: {what}"))
-                .at(path)
-                .help(format!("where the first is right, {}", again(shard))));
+            return Err(Fault::of(
+                ExportFault::Parts,
+                format!("part {shard} is of another export than `{name}`: {what}"),
+            )
+            .at(path)
+            .help(format!("where the first is right, {}", again(shard))));
         }
         all.push(part);
     }
@@ -167,9 +178,12 @@ fn joined(folder: &Path, parts: &[Manifest]) -> Result<(Vec<Entry>, BTreeMap<Str
             if (before.bytes, &before.sha256) != (entry.bytes, &entry.sha256) {
                 let count = parts.len();
                 let shard = part.part()?;
-                return Err(Fault::new(format!("parts {other}/{count} and {shard} wrote it, each in another way"))
-                    .at(folder.join(&entry.path))
-                    .help(again(shard)));
+                return Err(Fault::of(
+                    ExportFault::Parts,
+                    format!("parts {other}/{count} and {shard} wrote it, each in another way"),
+                )
+                .at(folder.join(&entry.path))
+                .help(again(shard)));
             }
         }
     }
@@ -192,7 +206,7 @@ fn check_asked(folder: &Path, first: &Manifest, files: &[Entry], count: u32) -> 
                 if is_whole { share.whole_files } else { share.frames.contains(&place) }
             };
             let owner = (1..=count).filter_map(|i| Shard::new(i, count)).find(owns).filter(|_| count > 1);
-            let fault = Fault::new("it was asked for, but no part wrote it");
+            let fault = Fault::of(ExportFault::Parts, "it was asked for, but no part wrote it");
             return Err(fault.at(folder.join(path)).help(owner.map_or_else(|| "run the export again".into(), again)));
         }
     }
@@ -233,5 +247,5 @@ fn check_files(folder: &Path, files: &[Entry], owner: impl Fn(&str) -> Option<Sh
             ]
         }
     };
-    Err(Fault::new(what).at(folder.join(&first.path)).help(help))
+    Err(Fault::of(ExportFault::Parts, what).at(folder.join(&first.path)).help(help))
 }

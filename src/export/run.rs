@@ -10,7 +10,7 @@ use super::asked::within;
 use super::digests::Digests;
 use super::ledger::put_aside;
 use super::repeats::{Dedupe, Repeats, repeat, rounded};
-use super::{Entry, Format, Job};
+use super::{Entry, ExportFault, Format, Job};
 use crate::disk::{self, Fault, Result, Setting, message, read_old, replace, write_whole};
 use crate::drawing::Drawing;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
@@ -55,7 +55,7 @@ pub fn run(
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .map_err(|e| Fault::new(format!("cannot start the export's threads: {e}")))?;
+        .map_err(|e| Fault::of(ExportFault::Threads, format!("cannot start the export's threads: {e}")))?;
     let tally = Tally { of: jobs.iter().map(|j| j.frames.len() as u32).sum(), ..Tally::default() };
     let mut report = Report::default();
     let mut files = Vec::new();

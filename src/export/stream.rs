@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::drawing::Picture;
 
 /// Where the frames of a moving picture come from.
@@ -67,7 +67,8 @@ impl Rate {
     /// When it is not above 0 and at most 1000.
     pub fn new(fps: f64) -> Result<Self> {
         if !(fps > 0.0 && fps <= 1000.0) {
-            return Err(Fault::new(format!("{fps} frames a second cannot be")).help("give a number from 1 to 240"));
+            return Err(Fault::of(FileFault::OutOfRange, format!("{fps} frames a second cannot be"))
+                .help("give a number from 1 to 240"));
         }
         // The rates of television first, which people write with two or three decimals.
         let ntsc = (fps * 1.001).round();

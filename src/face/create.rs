@@ -6,7 +6,7 @@ use std::fmt;
 use super::find::{Anchors, Doubt, Found, Refusal, find, find_from};
 use super::lips::parted;
 use super::{Face, FeaturePoint, How, Measured, Part, PhotoRecord, Placed, measure};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 use crate::photo::Photo;
 
@@ -56,9 +56,8 @@ pub fn create(photo: &Photo, sha256: &str, kept: Option<&Face>, anchors: Option<
     };
     let cut = cut_off(photo, &found.points);
     if anchors.is_none() && cut == Cut::Face {
-        return Err(
-            Fault::new("the face is cut off at the edge of the photo").help("take a photo with the whole head in it")
-        );
+        return Err(Fault::of(FileFault::CutOff, "the face is cut off at the edge of the photo")
+            .help("take a photo with the whole head in it"));
     }
     let points = super::Points(found.points.map(|p| p.at));
     let measured = measure(photo, &points);
@@ -231,6 +230,6 @@ fn warnings(found: &Found, measured: &Measured) -> Vec<Warning> {
 
 impl From<Refusal> for Fault {
     fn from(refusal: Refusal) -> Self {
-        Self::new(refusal.to_string()).help(refusal.help())
+        Self::of(refusal, refusal.to_string()).help(refusal.help())
     }
 }

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::point_row::{MAX_COORDINATE, PointRow};
 use super::{Beard, Colours, Face, FeaturePoint, Hair, HairKind, Measures, PhotoRecord, Placed};
-use crate::disk::{Fault, Result, Task, from_toml, message, nearest};
+use crate::disk::{Fault, FileFault, Result, Task, from_toml, message, nearest};
 use crate::drawing::Colour;
 use crate::geometry::Point;
 
@@ -90,7 +90,7 @@ impl Face {
     pub fn parse(text: &str) -> Result<Self> {
         let table: FileTable = from_toml(text)?;
         if table.format != FORMAT {
-            return Err(Fault::new(format!("format {} is not known to this version", table.format))
+            return Err(Fault::of(FileFault::Version, format!("format {} is not known to this version", table.format))
                 .help(format!("this version reads format {FORMAT}")));
         }
         let line_of = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map(|l| l + 1);
@@ -105,8 +105,11 @@ impl Face {
             let Some(point) = FeaturePoint::named(name) else {
                 let known: Vec<&str> = names.iter().map(String::as_str).collect();
                 let near = nearest(name, &known).map(|n| format!("did you mean \"{n}\"? ")).unwrap_or_default();
-                return Err(at_line(Fault::new(format!("there is no feature point \"{name}\"")), &key)
-                    .help(format!("{near}the 72 are 4.6, 4.4a … 10.5 and h.1 to h.25")));
+                return Err(at_line(
+                    Fault::of(FileFault::Unknown, format!("there is no feature point \"{name}\"")),
+                    &key,
+                )
+                .help(format!("{near}the 72 are 4.6, 4.4a … 10.5 and h.1 to h.25")));
             };
             placed.insert(point, row.placed(name).map_err(|fault| at_line(fault, &key))?);
         }
@@ -115,7 +118,7 @@ impl Face {
         };
         let lost = missing(&mut FeaturePoint::fixed());
         if !lost.is_empty() {
-            return Err(Fault::new(format!("[points] lacks {}", lost.join(", "))).help(message![
+            return Err(Fault::of(FileFault::Missing, format!("[points] lacks {}", lost.join(", "))).help(message![
                 "put them back, or move face.toml aside: ",
                 Task::FindFace,
                 " writes it anew"
@@ -123,7 +126,7 @@ impl Face {
         }
         let hairless = missing(&mut (0..FeaturePoint::HAIR).map(FeaturePoint::hair));
         if !hairless.is_empty() && hairless.len() != FeaturePoint::HAIR {
-            return Err(Fault::new(format!("[points] lacks {}", hairless.join(", ")))
+            return Err(Fault::of(FileFault::Missing, format!("[points] lacks {}", hairless.join(", ")))
                 .help("hair has 25 points, or none where the head is bald"));
         }
         let points = std::array::from_fn(|i| placed[&FeaturePoint::all().nth(i).expect("below 72")]);
@@ -137,9 +140,13 @@ impl Face {
                 && lists.iter().all(|l| (3..=MAX_VERTICES).contains(&l.len()))
                 && lists.iter().flatten().flatten().all(|v| v.abs() <= MAX_COORDINATE);
             if !fits {
-                return Err(at_line(Fault::new(format!("the outlines `{what}` of the hair cannot be")), what).help(
-                    format!("at most {MAX_OUTLINES} outlines of 3 to {MAX_VERTICES} vertices, in pixels of the photo"),
-                ));
+                return Err(at_line(
+                    Fault::of(FileFault::OutOfRange, format!("the outlines `{what}` of the hair cannot be")),
+                    what,
+                )
+                .help(format!(
+                    "at most {MAX_OUTLINES} outlines of 3 to {MAX_VERTICES} vertices, in pixels of the photo"
+                )));
             }
             Ok(lists.iter().map(|l| l.iter().map(|[x, y]| Point::new(*x, *y)).collect()).collect())
         };

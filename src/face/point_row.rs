@@ -4,7 +4,7 @@
 use serde::Deserialize;
 
 use super::{How, Placed};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 
 /// The farthest that a coordinate may lie from a photo's corner, in pixels.
@@ -32,10 +32,11 @@ impl PointRow {
     /// Without a line: coordinates beyond [`MAX_COORDINATE`], or a confidence that is not from 0 to 1.
     pub fn placed(&self, name: &str) -> Result<Placed> {
         if ![self.x, self.y].iter().all(|v| v.abs() <= MAX_COORDINATE) {
-            return Err(Fault::new(format!("point {name} lies nowhere near a photo")).help("give pixels of the photo"));
+            return Err(Fault::of(FileFault::OutOfRange, format!("point {name} lies nowhere near a photo"))
+                .help("give pixels of the photo"));
         }
         if !(0.0..=1.0).contains(&self.confidence) {
-            return Err(Fault::new(format!("the confidence of point {name} is not from 0 to 1"))
+            return Err(Fault::of(FileFault::OutOfRange, format!("the confidence of point {name} is not from 0 to 1"))
                 .help("write 1 for a point that you have set, or leave it out"));
         }
         Ok(Placed { at: Point::new(self.x, self.y), confidence: self.confidence, how: self.how })

@@ -5,7 +5,7 @@ use usvg::{Node, Paint, Transform, tiny_skia_path as skia};
 
 use super::cartoon::{Extra, Sheet};
 use super::layer_bounds::{check, too_much};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::drawing::{Colour, Group, Item, fit};
 use crate::geometry::{Affine, BezPath, Point, Rect, Shape};
 
@@ -72,7 +72,7 @@ impl AuthorLayer {
             return Err(too_much(what));
         }
         if reader.shapes > MAX_SHAPES {
-            return Err(Fault::new(format!("the layer has more than {MAX_SHAPES} shapes"))
+            return Err(Fault::of(FileFault::TooLarge, format!("the layer has more than {MAX_SHAPES} shapes"))
                 .help("simplify the drawing: every shape is drawn in every frame"));
         }
         let mut left_out = reader.left_out;

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use usvg::roxmltree::{Document, Node, NodeId, ParsingOptions};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// The most elements, references followed: twenty for each of the most shapes of a layer.
 const MAX_ELEMENTS: u64 = 100_000;
@@ -50,7 +50,7 @@ pub(super) fn check(text: &str) -> Result<()> {
 }
 
 pub(super) fn too_much(what: &str) -> Fault {
-    Fault::new(format!("the layer is too large: {what}"))
+    Fault::of(FileFault::TooLarge, format!("the layer is too large: {what}"))
         .help("simplify the drawing: fewer shapes, dashes, copies and patterns")
 }
 

@@ -13,7 +13,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::limits::{MAX_PHOTO_SIDE, check_size, of_decoding, too_large};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::drawing::Image;
 
 /// A file whose header was read, and promises no more pixels than may be decoded.
@@ -53,7 +53,9 @@ impl<'a> Jpeg<'a> {
 /// When its end is missing, it is damaged, or its header promises too many pixels.
 pub(super) fn upright(bytes: &[u8]) -> Result<DynamicImage> {
     if !ends(bytes) {
-        return Err(Fault::new("the photo is damaged: its end is missing").help("copy or download it again"));
+        return Err(
+            Fault::of(FileFault::CutOff, "the photo is damaged: its end is missing").help("copy or download it again")
+        );
     }
     let mut jpeg = Jpeg::open(bytes)?;
     let turned = jpeg.decoder.exif().and_then(|exif| Orientation::from_exif_chunk(exif));

@@ -2,7 +2,7 @@
 
 use image::ImageError;
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// The most pixels that a photo may be wide or high.
 pub const MAX_PHOTO_SIDE: u32 = 12_000;
@@ -21,15 +21,21 @@ pub(super) fn check_size(size: u64, packed: usize) -> Result<()> {
         return Err(too_large());
     }
     if size > HARMLESS_BYTES && size / MAX_PACKED > packed as u64 {
-        return Err(Fault::new("the photo is damaged: its header promises more pixels than the file can hold")
-            .help("save it again in another program and give that"));
+        return Err(Fault::of(
+            FileFault::CutOff,
+            "the photo is damaged: its header promises more pixels than the file can hold",
+        )
+        .help("save it again in another program and give that"));
     }
     Ok(())
 }
 
 pub(super) fn too_large() -> Fault {
-    Fault::new(format!("the photo is larger than {MAX_PHOTO_SIDE} × {MAX_PHOTO_SIDE} pixels, or too large to decode"))
-        .help("scale it down; 1000 pixels across are plenty")
+    Fault::of(
+        FileFault::TooLarge,
+        format!("the photo is larger than {MAX_PHOTO_SIDE} × {MAX_PHOTO_SIDE} pixels, or too large to decode"),
+    )
+    .help("scale it down; 1000 pixels across are plenty")
 }
 
 pub(super) fn of_decoding(error: ImageError) -> Fault {

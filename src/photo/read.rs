@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 
 use super::limits::{MAX_DECODED_BYTES, MAX_PHOTO_SIDE, check_size, of_decoding};
 use super::{Photo, jpeg};
-use crate::disk::{Fault, Result, read_bytes};
+use crate::disk::{Fault, FileFault, Result, read_bytes};
 
 /// The largest photo file that is read.
 pub const MAX_PHOTO_BYTES: u64 = 64 << 20;
@@ -46,8 +46,11 @@ impl Photo {
     pub fn decode(bytes: &[u8]) -> Result<Self> {
         let kind = image::guess_format(bytes).ok().filter(|f| KINDS.contains(f));
         let Some(kind) = kind else {
-            return Err(Fault::new(format!("this is not a photo that can be read{}", named(bytes)))
-                .help("save it as PNG, JPEG or WebP and give that"));
+            return Err(Fault::of(
+                FileFault::Unsupported,
+                format!("this is not a photo that can be read{}", named(bytes)),
+            )
+            .help("save it as PNG, JPEG or WebP and give that"));
         };
         if kind == ImageFormat::Jpeg {
             return jpeg::upright(bytes).map(flattened);

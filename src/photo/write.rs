@@ -1,7 +1,7 @@
 //! Photos out: pixels and nothing else.
 
 use super::Photo;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// A photo as a PNG file of 8-bit RGB that holds its pixels and nothing else: no place, no time, no camera, no
 /// thumbnail of what was cut away, as the file it came from may. The same photo gives the same bytes.
@@ -21,6 +21,6 @@ pub fn to_clean_png(photo: &Photo) -> Result<Vec<u8>> {
         writer.write_image_data(photo.pixels().as_flattened())?;
         writer.finish()
     })();
-    encoded.map_err(|e| Fault::new(format!("the photo cannot be written as PNG: {e}")))?;
+    encoded.map_err(|e| Fault::of(FileFault::OutOfRange, format!("the photo cannot be written as PNG: {e}")))?;
     Ok(bytes)
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::change::Times;
 use super::doubts::{CONFIDENCE, NOT_HEARD, NOT_IN_SCRIPT};
-use super::{Change, Clip, Edit, Lesson, counted};
+use super::{Change, Clip, Edit, Lesson, ProjectFault, counted};
 use crate::disk::{Fault, Result};
 use crate::script::{self, Syllable};
 use crate::speech::{self, Alignment, Note, Pin, Sound, Take};
@@ -55,9 +55,12 @@ impl AlignJob {
                 (_, true) => ("script", "script.txt"),
                 _ => continue,
             };
-            return Err(Fault::new(format!("the clip `{}` has no {} to align", clip.entry.name, lacks.0))
-                .at(&clip.folder)
-                .help(format!("put it there as {}", lacks.1)));
+            return Err(Fault::of(
+                ProjectFault::Incomplete,
+                format!("the clip `{}` has no {} to align", clip.entry.name, lacks.0),
+            )
+            .at(&clip.folder)
+            .help(format!("put it there as {}", lacks.1)));
         }
         let mut groups: Vec<(Option<&str>, f64, Vec<OwnTake>)> = Vec::new();
         for (number, clip) in lesson.clips.iter().enumerate() {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::face::FACE_FILE;
 use super::video::{FRAMES, VIDEOS};
 use crate::aam::{Annotation, annotation};
-use crate::disk::{Fault, Result, copy, make_folder, open, read_bytes, replace, write_whole};
+use crate::disk::{Fault, FileFault, Result, copy, make_folder, open, read_bytes, replace, write_whole};
 use crate::face::{Anchors, Created, create};
 use crate::geometry::Point;
 use crate::photo::{MAX_PHOTO_BYTES, Photo, sha256, to_clean_png, without_metadata};
@@ -37,7 +37,9 @@ impl Brought {
         if let Some(file) = beside {
             let mut list = Annotation::read(&file)?;
             let (Some(one), true) = (list.pop(), list.is_empty()) else {
-                return Err(Fault::new("it annotates more than one face").at(&file).help("keep one face in it"));
+                return Err(Fault::of(FileFault::TooLarge, "it annotates more than one face")
+                    .at(&file)
+                    .help("keep one face in it"));
             };
             let points = one.in_pixels([photo.width(), photo.height()]);
             let small = |p: &Point| Point::new(p.x / brought.factor, p.y / brought.factor);
@@ -94,7 +96,7 @@ pub(super) fn copy_video(video: &Path, clip: &Path) -> Result<()> {
     }
     let extension = video.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     if !VIDEOS.contains(&extension.as_str()) {
-        return Err(Fault::new("it has none of the endings of a video")
+        return Err(Fault::of(FileFault::Unsupported, "it has none of the endings of a video")
             .at(video)
             .help(format!("give a folder of pictures, or a file that ends in {}", VIDEOS.join(", ")))
             .of_the_call());

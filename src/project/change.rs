@@ -7,7 +7,7 @@ use super::footage::Footage;
 use super::said::Said;
 use super::shots::near_the_photo;
 use super::times::OWN_TIERS;
-use super::{Clip, LessonFace};
+use super::{Clip, LessonFace, ProjectFault};
 use crate::disk::{Fault, Result};
 use crate::emotion::Marks;
 use crate::face::{Face, FeaturePoint, How, Placed};
@@ -300,7 +300,8 @@ impl Edit {
             }
             Self::AddKey { clip, key } => {
                 if !(key.time.is_finite() && key.time >= 0.0) {
-                    return Err(Fault::new(format!("a key cannot be at {} s", key.time)).help("give a time from 0 on"));
+                    return Err(Fault::of(ProjectFault::Edit, format!("a key cannot be at {} s", key.time))
+                        .help("give a time from 0 on"));
                 }
                 add(&mut clip_of(clips, *clip)?.score.keys, key)
             }
@@ -361,13 +362,14 @@ fn clip_of(clips: &mut [Clip], clip: usize) -> Result<&mut Clip> {
 }
 
 pub(super) fn stale() -> Fault {
-    Fault::new("the change does not fit the lesson as it is now").help("the files were changed by other means")
+    Fault::of(ProjectFault::Changed, "the change does not fit the lesson as it is now")
+        .help("the files were changed by other means")
 }
 
 /// Adds what is not there: the same thing twice would be one change made twice, as by a journal read again.
 fn add<T: PartialEq + Clone>(list: &mut Vec<T>, item: &T) -> Result<()> {
     if list.contains(item) {
-        return Err(Fault::new("it is there already").help("move or change the one that is there"));
+        return Err(Fault::of(ProjectFault::Edit, "it is there already").help("move or change the one that is there"));
     }
     list.push(item.clone());
     Ok(())
@@ -406,10 +408,13 @@ pub(super) fn in_order(tier: &Tier) -> Result<()> {
     for interval in tier.spoken() {
         let rises = interval.start >= edge - 1e-6 && interval.end >= interval.start && interval.end.is_finite();
         if !rises {
-            return Err(Fault::new(format!(
-                "`{}` cannot be said from {:.3} to {:.3} s, where the one before ends at {edge:.3} s",
-                interval.label, interval.start, interval.end
-            ))
+            return Err(Fault::of(
+                ProjectFault::Edit,
+                format!(
+                    "`{}` cannot be said from {:.3} to {:.3} s, where the one before ends at {edge:.3} s",
+                    interval.label, interval.start, interval.end
+                ),
+            )
             .help("syllables follow each other"));
         }
         edge = interval.end;
@@ -464,7 +469,7 @@ fn set_times(clip: &mut Clip, first: usize, before: &[(f64, f64)], after: &[(f64
     let mut edge = left;
     for (start, end) in after {
         if !(start.is_finite() && end.is_finite() && *start >= edge - 1e-9 && end > start && *end <= right + 1e-9) {
-            return Err(Fault::new(format!("a syllable cannot last from {start:.3} to {end:.3} s"))
+            return Err(Fault::of(ProjectFault::Edit, format!("a syllable cannot last from {start:.3} to {end:.3} s"))
                 .help(format!("there is room from {left:.3} to {right:.3} s")));
         }
         edge = *end;

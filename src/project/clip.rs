@@ -8,8 +8,8 @@ use super::label::label_reading;
 use super::manifest::ClipEntry;
 use super::save::sum_of;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
-use super::video;
-use crate::disk::{Fault, Message, Pending, Result, Sum, Task, inside, list, message, read_text};
+use super::{ProjectFault, video};
+use crate::disk::{Fault, FileFault, Message, Pending, Result, Sum, Task, inside, list, message, read_text};
 use crate::emotion::{Record, Tracks};
 use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
@@ -107,7 +107,7 @@ impl Clip {
     fn read_as(root: &Path, entry: &ClipEntry, pending: &Pending, instead: Option<&str>) -> Result<Self> {
         let folder = inside(root, &format!("clips/{}", entry.name))?;
         if !folder.is_dir() {
-            return Err(Fault::new(format!("the clip `{}` has no folder", entry.name))
+            return Err(Fault::of(ProjectFault::Incomplete, format!("the clip `{}` has no folder", entry.name))
                 .at(&folder)
                 .help("make the folder with a script.txt and a speech.wav, or take the clip out of lianpu.toml"));
         }
@@ -198,7 +198,7 @@ impl Clip {
             clip.kept_script.clone_from(&clip.script);
         }
         if clip.duration() <= 0.0 {
-            return Err(Fault::new(format!("the clip `{}` has nothing in it", entry.name))
+            return Err(Fault::of(ProjectFault::Incomplete, format!("the clip `{}` has nothing in it", entry.name))
                 .at(&folder)
                 .help("put a speech.wav with its script.txt there, a timing.TextGrid, a ratios.csv, or a video"));
         }
@@ -355,7 +355,7 @@ fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
             inside(root, &format!("clips/{clip}/{name}"))?;
             Ok(Some(one.clone()))
         }
-        _ => Err(Fault::new(format!("there are several recordings: {}", names.join(", ")))
+        _ => Err(Fault::of(FileFault::Duplicate, format!("there are several recordings: {}", names.join(", ")))
             .at(folder)
             .help("keep one of them")),
     }

@@ -8,10 +8,10 @@ use super::clip::SOUNDS;
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::settled::OWN_FOLDER;
 use super::video::FRAMES_FPS;
-use super::{AlignJob, Lesson, Method, TrackJob};
+use super::{AlignJob, Lesson, Method, ProjectFault, TrackJob};
 use crate::disk::{
-    Commit, Fault, Message, Result, Setting, Sums, SystemCalls, Task, clean_line, clear_temporaries, list, make_folder,
-    message, plain_name, read_bytes, read_text, temporary_prefix, write_whole,
+    Commit, Fault, FileFault, Message, Result, Setting, Sums, SystemCalls, Task, clean_line, clear_temporaries, list,
+    make_folder, message, plain_name, read_bytes, read_text, temporary_prefix, write_whole,
 };
 use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
@@ -76,18 +76,23 @@ pub struct Made {
 /// When the folder is taken, or an input cannot be used; then nothing is left behind.
 pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<usize>) -> bool) -> Result<Made> {
     let Some(name) = root.file_name().and_then(|n| n.to_str()).map(str::to_owned) else {
-        return Err(Fault::new(format!("`{}` does not end in a name for the lesson", root.display()))
-            .help("give the folder to make, such as lessons/nihao")
-            .of_the_call());
+        return Err(Fault::of(
+            ProjectFault::Request,
+            format!("`{}` does not end in a name for the lesson", root.display()),
+        )
+        .help("give the folder to make, such as lessons/nihao")
+        .of_the_call());
     };
     plain_name(&name).map_err(Fault::of_the_call)?;
     let taken = root.symlink_metadata().is_ok() && list(root).map_or(true, |there| !there.is_empty());
     if taken {
-        return Err(Fault::new("something of that name is already there").at(root).help("choose another name"));
+        return Err(Fault::of(ProjectFault::Taken, "something of that name is already there")
+            .at(root)
+            .help("choose another name"));
     }
     let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some() || new.video.is_some();
     if !has_clip && new.neutral.is_none() {
-        return Err(Fault::new("a lesson needs a photo, a recording, times, ratios, or a video")
+        return Err(Fault::of(ProjectFault::Request, "a lesson needs a photo, a recording, times, ratios, or a video")
             .help(message![
                 "give ",
                 Setting::Neutral,
@@ -105,17 +110,20 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
             .of_the_call());
     }
     if !new.shots.is_empty() && new.neutral.is_none() && new.video.is_none() {
-        return Err(Fault::new("shots of emotions are measured from the neutral face")
+        return Err(Fault::of(ProjectFault::Request, "shots of emotions are measured from the neutral face")
             .help(message!["give ", Setting::Neutral, " too"])
             .of_the_call());
     }
     if new.ratios.is_some() && new.video.is_some() {
-        return Err(Fault::new("the ratios of a clip are those of its video, or those of a file")
-            .help(message!["give ", Setting::Video, " or ", Setting::Ratios])
-            .of_the_call());
+        return Err(Fault::of(
+            ProjectFault::Request,
+            "the ratios of a clip are those of its video, or those of a file",
+        )
+        .help(message!["give ", Setting::Video, " or ", Setting::Ratios])
+        .of_the_call());
     }
     if new.script.is_some() && !has_clip {
-        return Err(Fault::new("a script needs its recording, or its times")
+        return Err(Fault::of(ProjectFault::Request, "a script needs its recording, or its times")
             .help(message!["give ", Setting::Speech, ", or leave ", Setting::Script, " out for now"])
             .of_the_call());
     }
@@ -128,7 +136,9 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
     if figure != CARTOON {
         LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
     } else if !has_face {
-        return Err(Fault::new("a cartoon needs a photo").help(message!["give ", Setting::Neutral]).of_the_call());
+        return Err(Fault::of(ProjectFault::Request, "a cartoon needs a photo")
+            .help(message!["give ", Setting::Neutral])
+            .of_the_call());
     }
     check_inputs(new)?;
     // Before a folder is made: a photo in which no face is found leaves nothing behind.
@@ -180,9 +190,10 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
     write_whole(&draft.path().join(".gitignore"), b"/.lianpu/\n/export/\n")?;
     // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
     // files, not the draft's.
-    let mut lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(&f, new))?;
+    let mut lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(f, new))?;
     if new.script.is_some() && lesson.clips.iter().any(|c| c.syllables.is_empty()) {
-        let fault = Fault::new("there is nothing to say in the script").help("write what is said in the recording");
+        let fault = Fault::of(FileFault::Empty, "there is nothing to say in the script")
+            .help("write what is said in the recording");
         return Err(match &new.script {
             Some(path) => fault.at(path),
             None => fault,
@@ -231,7 +242,7 @@ fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> 
     let Some(face) = lesson.faces.first().filter(|_| !new.shots.is_empty() || new.video.is_some()) else {
         return Ok(None);
     };
-    let kept = Kept::make(&face.folder).map_err(|f| of_inputs(&f, new))?;
+    let kept = Kept::make(&face.folder).map_err(|f| of_inputs(f, new))?;
     in_draft(&lesson.root, |commit| kept.stage(&face.folder, commit))?;
     Ok(Some(kept.made.quality))
 }
@@ -291,12 +302,14 @@ fn neutral(new: &NewLesson) -> Result<Option<(Brought, Created)>> {
     let number = new.neutral_frame.unwrap_or(0);
     let photo = frame_of(video, new.video_fps.unwrap_or(FRAMES_FPS), number)?;
     let created = photo.face(new.anchors).map_err(|f| {
-        Fault::new(format!("frame {number} cannot be the neutral face: {}", f.what())).at(video).help(message![
-            "name one that shows it at rest, from the front: ",
-            Setting::NeutralFrame,
-            ", or give ",
-            Setting::Neutral
-        ])
+        Fault::of(FileFault::OutOfRange, format!("frame {number} cannot be the neutral face: {}", f.what()))
+            .at(video)
+            .help(message![
+                "name one that shows it at rest, from the front: ",
+                Setting::NeutralFrame,
+                ", or give ",
+                Setting::Neutral
+            ])
     })?;
     Ok(Some((photo, created)))
 }
@@ -357,7 +370,7 @@ fn fill(root: &Path, clip: &ClipEntry, new: &NewLesson) -> Result<Vec<Message>> 
 }
 
 /// The fault with the author's file in place of its copy in the draft.
-fn of_inputs(fault: &Fault, new: &NewLesson) -> Fault {
+fn of_inputs(fault: Fault, new: &NewLesson) -> Fault {
     let copied = fault.path().and_then(|p| p.file_stem()).and_then(|s| s.to_str()).unwrap_or_default().to_owned();
     let original = match copied.as_str() {
         "speech" => &new.speech,
@@ -368,11 +381,12 @@ fn of_inputs(fault: &Fault, new: &NewLesson) -> Fault {
         "video" => &new.video,
         shot => &new.shots.iter().find(|(e, _)| e.name() == shot).map(|(_, path)| path.clone()),
     };
-    let mut named = Fault::new(fault.what()).help(fault.advice());
+    let line = fault.line_number();
+    let mut named = fault.without_place();
     if let Some(path) = original {
         named = named.at(path);
     }
-    match fault.line_number() {
+    match line {
         Some(line) => named.line(line),
         None => named,
     }

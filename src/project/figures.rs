@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::face::FACE_FILE;
 use super::manifest::MANIFEST;
-use super::{LayerEntry, LessonFace};
-use crate::disk::{Fault, Result, Task, inside, message, read_bytes, read_text};
+use super::{LayerEntry, LessonFace, ProjectFault};
+use crate::disk::{Fault, FileFault, Result, Task, inside, message, read_bytes, read_text};
 use crate::figure::cartoon::Style;
 use crate::figure::{AuthorLayer, Cartoon, Figure, LineFigure, MAX_LAYER_BYTES};
 
@@ -33,9 +33,12 @@ pub(super) fn cartoon(root: &Path, face: &LessonFace) -> Result<Figure> {
                 format!("put a photo there as faces/{}/neutral.png, or write figure = \"line\"", face.entry.name).into()
             }
         };
-        Fault::new(format!("the face `{}` has no points yet, so its cartoon cannot be drawn", face.entry.name))
-            .at(face.folder.join(FACE_FILE))
-            .help(help)
+        Fault::of(
+            ProjectFault::Incomplete,
+            format!("the face `{}` has no points yet, so its cartoon cannot be drawn", face.entry.name),
+        )
+        .at(face.folder.join(FACE_FILE))
+        .help(help)
     })?;
     let style = style(root, face)?;
     let mut cartoon = Cartoon::new(&points, &style);
@@ -65,8 +68,9 @@ pub(super) fn style(root: &Path, face: &LessonFace) -> Result<Style> {
 pub(super) fn layer(root: &Path, entry: &LayerEntry) -> Result<AuthorLayer> {
     let path = own_file(root, "file", &entry.file, "take the layer out of lianpu.toml")?;
     let bytes = read_bytes(&path, MAX_LAYER_BYTES)?;
-    let text = std::str::from_utf8(&bytes)
-        .map_err(|_| Fault::new("the file is not UTF-8 text").at(&path).help("save it as plain SVG"))?;
+    let text = std::str::from_utf8(&bytes).map_err(|_| {
+        Fault::of(FileFault::Encoding, "the file is not UTF-8 text").at(&path).help("save it as plain SVG")
+    })?;
     AuthorLayer::parse(text, entry.place).map_err(|f| f.at(&path))
 }
 

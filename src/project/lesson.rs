@@ -8,7 +8,7 @@ use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::open::refusal;
-use super::{Change, Clip, LessonFace};
+use super::{Change, Clip, LessonFace, ProjectFault};
 use crate::disk::{self, Fault, HeldFolder, Lock, Message, Result, Sums, confine, is_temporary, suggestion};
 use crate::figure::Figure;
 use crate::pose::MouthPreset;
@@ -136,13 +136,13 @@ impl Lesson {
         let known: Vec<&str> = self.clips.iter().map(|c| c.entry.name.as_str()).collect();
         match name {
             Some(name) => self.clips.iter().position(|c| c.entry.name == name).ok_or_else(|| {
-                Fault::new(format!("there is no clip `{name}`"))
+                Fault::of(ProjectFault::NoSuchClip, format!("there is no clip `{name}`"))
                     .at(self.root.join(MANIFEST))
                     .help(suggestion(name, "clips", &known))
             }),
-            None if self.clips.is_empty() => {
-                Err(Fault::new("the lesson has no clips").at(self.root.join(MANIFEST)).help("add a [[clip]]"))
-            }
+            None if self.clips.is_empty() => Err(Fault::of(ProjectFault::NoSuchClip, "the lesson has no clips")
+                .at(self.root.join(MANIFEST))
+                .help("add a [[clip]]")),
             None => Ok(0),
         }
     }
@@ -155,13 +155,13 @@ impl Lesson {
         let known: Vec<&str> = self.faces.iter().map(|f| f.entry.name.as_str()).collect();
         match name {
             Some(name) => known.iter().position(|k| *k == name).ok_or_else(|| {
-                Fault::new(format!("there is no face `{name}`"))
+                Fault::of(ProjectFault::NoSuchFace, format!("there is no face `{name}`"))
                     .at(self.root.join(MANIFEST))
                     .help(suggestion(name, "faces", &known))
             }),
-            None if known.is_empty() => {
-                Err(Fault::new("the lesson has no faces").at(self.root.join(MANIFEST)).help("add a [[face]]"))
-            }
+            None if known.is_empty() => Err(Fault::of(ProjectFault::NoSuchFace, "the lesson has no faces")
+                .at(self.root.join(MANIFEST))
+                .help("add a [[face]]")),
             None => Ok(0),
         }
     }

@@ -4,7 +4,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::disk::{Fault, Result, Task, clean_line, confine, from_toml, message, plain_name, read_text, suggestion};
+use super::ProjectFault;
+use crate::disk::{
+    Fault, FileFault, Result, Task, clean_line, confine, from_toml, message, plain_name, read_text, suggestion,
+};
 use crate::figure::LayerPlace;
 use crate::pose::MouthPreset;
 use crate::render::MAX_SIDE;
@@ -130,7 +133,7 @@ impl Manifest {
         confine(root);
         let path = root.join(MANIFEST);
         if !path.is_file() {
-            return Err(Fault::new("there is no lesson here").at(&path).help(message![
+            return Err(Fault::of(ProjectFault::NoProject, "there is no lesson here").at(&path).help(message![
                 "make one with ",
                 Task::New,
                 ", or give the folder that has a lianpu.toml"
@@ -147,7 +150,7 @@ impl Manifest {
         let file: File = from_toml(text)?;
         let line = |span: std::ops::Range<usize>| 1 + text[..span.start.min(text.len())].matches('\n').count();
         if file.format != FORMAT {
-            return Err(Fault::new(format!("`format` is {}", file.format))
+            return Err(Fault::of(FileFault::Version, format!("`format` is {}", file.format))
                 .help(format!("this program reads lessons of format {FORMAT}")));
         }
         let output = match file.output {
@@ -165,7 +168,9 @@ impl Manifest {
             let face = face.into_inner();
             plain_name(&face.name).map_err(|f| f.line(at))?;
             if faces.iter().any(|f| f.name == face.name) {
-                return Err(Fault::new(format!("two faces are called `{}`", face.name)).line(at).help("rename one"));
+                return Err(Fault::of(FileFault::Duplicate, format!("two faces are called `{}`", face.name))
+                    .line(at)
+                    .help("rename one"));
             }
             faces.push(face);
         }
@@ -175,7 +180,9 @@ impl Manifest {
             let clip = clip.into_inner();
             plain_name(&clip.name).map_err(|f| f.line(at))?;
             if clips.iter().any(|c| c.name == clip.name) {
-                return Err(Fault::new(format!("two clips are called `{}`", clip.name)).line(at).help("rename one"));
+                return Err(Fault::of(FileFault::Duplicate, format!("two clips are called `{}`", clip.name))
+                    .line(at)
+                    .help("rename one"));
             }
             check_face_of(&clip, &faces).map_err(|f| f.line(at))?;
             clips.push(clip);
@@ -183,8 +190,11 @@ impl Manifest {
         for clip in &clips {
             let is_other = |take: &String| clips.iter().any(|c| c.name == *take && c.name != clip.name);
             if let Some(take) = clip.take_of.as_ref().filter(|take| !is_other(take)) {
-                return Err(Fault::new(format!("`{}` is a take of `{take}`, which is no other clip here", clip.name))
-                    .help(format!("clips: {}", names(clips.iter().map(|c| &c.name)))));
+                return Err(Fault::of(
+                    FileFault::Unknown,
+                    format!("`{}` is a take of `{take}`, which is no other clip here", clip.name),
+                )
+                .help(format!("clips: {}", names(clips.iter().map(|c| &c.name)))));
             }
         }
         Ok(Self { title: clean_line(&file.title, 200), faces, clips, output })
@@ -225,10 +235,11 @@ fn line_of(text: &str, heading: &str, fallback: usize) -> usize {
 fn check_face_of(clip: &ClipEntry, faces: &[FaceEntry]) -> Result<()> {
     let known = || faces.iter().map(|f| f.name.as_str()).collect::<Vec<_>>();
     match &clip.face {
-        Some(name) if faces.iter().all(|f| f.name != *name) => {
-            Err(Fault::new(format!("the clip `{}` has the face `{name}`, which is not in the lesson", clip.name))
-                .help(suggestion(name, "faces", &known())))
-        }
+        Some(name) if faces.iter().all(|f| f.name != *name) => Err(Fault::of(
+            FileFault::Unknown,
+            format!("the clip `{}` has the face `{name}`, which is not in the lesson", clip.name),
+        )
+        .help(suggestion(name, "faces", &known()))),
         None if faces.len() > 1 => Err(Fault::new(format!("the clip `{}` does not say whose face it has", clip.name))
             .help(format!("add face = \"NAME\"; faces: {}", known().join(", ")))),
         _ => Ok(()),
@@ -241,7 +252,7 @@ fn check_face_of(clip: &ClipEntry, faces: &[FaceEntry]) -> Result<()> {
 /// When fps or size are beyond their limits.
 pub(crate) fn check_output(output: &Output) -> Result<()> {
     if !FPS.contains(&output.fps) {
-        return Err(Fault::new(format!("`fps` is {}", output.fps)).help(format!(
+        return Err(Fault::of(FileFault::OutOfRange, format!("`fps` is {}", output.fps)).help(format!(
             "give frames a second from {} to {}",
             FPS.start(),
             FPS.end()
@@ -249,7 +260,7 @@ pub(crate) fn check_output(output: &Output) -> Result<()> {
     }
     let [width, height] = output.size;
     if [width, height].iter().any(|s| !(16..=MAX_SIDE).contains(s)) {
-        return Err(Fault::new(format!("`size` is [{width}, {height}]"))
+        return Err(Fault::of(FileFault::OutOfRange, format!("`size` is [{width}, {height}]"))
             .help(format!("give width and height in pixels, each from 16 to {MAX_SIDE}")));
     }
     Ok(())

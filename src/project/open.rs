@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::history::History;
 use super::journal::{JOURNAL, JOURNAL_BYTES, Journal};
 use super::settled::{LOCK, OWN_FOLDER, end_and_sweep, read_settled};
-use super::{Change, Clip, Lesson, LessonFace, MANIFEST, Manifest};
+use super::{Change, Clip, Lesson, LessonFace, MANIFEST, Manifest, ProjectFault};
 use crate::disk::{Calls, Commit, Fault, HeldFolder, Lock, Message, Pending, Result, Sums, SystemCalls, read_bytes};
 
 /// Where changes are kept that do not fit the files any more.
@@ -144,7 +144,7 @@ pub(super) fn refusal(what: &str, why: &str) -> Fault {
     } else {
         "copy the folder to a place of yours and open the copy"
     };
-    Fault::new(format!("the lesson cannot be {what}: {why}")).help(help)
+    Fault::of(ProjectFault::ReadOnly, format!("the lesson cannot be {what}: {why}")).help(help)
 }
 
 /// Why a lesson is read-only that somebody is working on.

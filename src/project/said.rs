@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::change::{Times, in_order, same_times, stale, take_own};
 use super::doubts::{CONFIDENCE, NOT_IN_SCRIPT};
 use super::label::label_fits;
-use super::{Change, Clip, Edit, Lesson, counted};
+use super::{Change, Clip, Edit, Lesson, ProjectFault, counted};
 use crate::disk::{Fault, Result, clean_line};
 use crate::script::{self, Syllable, System};
 use crate::timing::{self, Interval, Tier};
@@ -76,12 +76,16 @@ impl Lesson {
         let text = clean_line(text, 4000);
         let own = read(&text, clip.system())?.len();
         if own == 0 {
-            return Err(Fault::new("there is no syllable in it").help("type characters, Pinyin, Zhuyin or English"));
+            return Err(Fault::of(ProjectFault::Edit, "there is no syllable in it")
+                .help("type characters, Pinyin, Zhuyin or English"));
         }
         if own > places.len() {
             let places = counted(places.len(), "place");
-            return Err(Fault::new(format!("{}, and {places} from here on", counted(own, "syllable")))
-                .help("type fewer, or go back to an earlier place"));
+            return Err(Fault::of(
+                ProjectFault::Edit,
+                format!("{}, and {places} from here on", counted(own, "syllable")),
+            )
+            .help("type fewer, or go back to an earlier place"));
         }
         let places = &places[..own];
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return Err(stale()) };
@@ -90,17 +94,16 @@ impl Lesson {
             && next.start < last.1 - 1e-6
         {
             let room = places.iter().filter(|p| p.1 <= next.start + 1e-6).count();
-            return Err(Fault::new(format!(
-                "there is room for {} before {}",
-                counted(room, "syllable"),
-                syllable.text
-            ))
+            return Err(Fault::of(
+                ProjectFault::Edit,
+                format!("there is room for {} before {}", counted(room, "syllable"), syllable.text),
+            )
             .help("type fewer"));
         }
         if let Some(before) = at.checked_sub(1).and_then(|i| clip.intervals().get(i))
             && before.end > first.0 + 1e-6
         {
-            return Err(Fault::new(format!("`{}` is said until {:.2} s", before.label, before.end))
+            return Err(Fault::of(ProjectFault::Edit, format!("`{}` is said until {:.2} s", before.label, before.end))
                 .help("go to a place after it, or mark the places anew"));
         }
         let mut later = clip.clone();
@@ -109,8 +112,11 @@ impl Lesson {
         let texts = |s: &[Syllable]| s.iter().map(|s| s.text.clone()).collect::<Vec<_>>();
         let (old, new) = (texts(&clip.plain), texts(&later.plain));
         if new.len() != old.len() + own || new[..at] != old[..at] || new[at + own..] != old[at..] {
-            return Err(Fault::new("together with what is said before and after it, it is read in another way")
-                .help("write it as characters, or all of it in one romanisation"));
+            return Err(Fault::of(
+                ProjectFault::Edit,
+                "together with what is said before and after it, it is read in another way",
+            )
+            .help("write it as characters, or all of it in one romanisation"));
         }
         let mut tier = Tier::new("syllables");
         tier.intervals = clip.intervals().to_vec();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::journal::Journal;
 use super::open::{elsewhere, refusal};
 use super::settled::{LOCK, OWN_FOLDER};
-use super::{Change, Clip, Edit, Lesson, LessonFace, MANIFEST};
+use super::{Change, Clip, Edit, Lesson, LessonFace, MANIFEST, ProjectFault};
 use crate::disk::{Calls, Commit, Committed, Fault, Lock, Result, Sum, Sums, SystemCalls, end_commit};
 use crate::emotion::{Kept, Marks};
 use crate::face::Face;
@@ -84,7 +84,8 @@ impl Lesson {
     /// Makes sure that the lesson is still where it was opened, and that nobody else has it.
     pub(super) fn hold(&mut self) -> Result<()> {
         if self.held.as_ref().is_some_and(|held| !held.is_at(&self.root)) {
-            return Err(Fault::new(
+            return Err(Fault::of(
+                ProjectFault::Changed,
                 "the lesson's folder was moved or removed while it was open, so nothing is saved here",
             )
             .at(&self.root)
@@ -116,7 +117,8 @@ impl Lesson {
         // As it will be read: what could not be read back is not written.
         let face = Face::parse(&face.to_toml())?;
         let Some(kept) = self.faces.get_mut(number) else {
-            return Err(Fault::new(format!("there is no face number {number}")).help("look at lianpu.toml"));
+            return Err(Fault::of(ProjectFault::NoSuchFace, format!("there is no face number {number}"))
+                .help("look at lianpu.toml"));
         };
         let before = kept.face.replace(face);
         let written = self.commit(&mut SystemCalls, |lesson, commit| lesson.faces[number].stage(commit));
@@ -135,7 +137,8 @@ impl Lesson {
     /// When the face's points were changed while it was made.
     pub fn calibrated(&self, number: usize, kept: &Kept) -> Result<Option<Change>> {
         let Some(face) = self.faces.get(number).filter(|f| f.sums_match(&kept.inputs)) else {
-            return Err(Fault::new("the points or photos were changed while it calibrated").help("calibrate again"));
+            return Err(Fault::of(ProjectFault::Changed, "the points or photos were changed while it calibrated")
+                .help("calibrate again"));
         };
         let marks = Emotion::ALL[1..].iter().filter_map(|emotion| {
             let before = face.shots[emotion.index()].marks.as_ref().map(Marks::to_toml);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use super::ProjectFault;
 use crate::disk::{
     Calls, Fault, Lock, Message, Pending, Result, SystemCalls, clear_temporaries, commit_stamp, end_commit,
     has_temporaries, is_commit_open, list,
@@ -38,7 +39,9 @@ pub(super) fn read_settled<T>(root: &Path, mut read: impl FnMut(&Pending) -> T) 
             return Ok((value, notes));
         }
     }
-    Err(Fault::new("the lesson is being saved all the time").at(root).help("try again when it is not"))
+    Err(Fault::of(ProjectFault::Busy, "the lesson is being saved all the time")
+        .at(root)
+        .help("try again when it is not"))
 }
 
 /// Ends a save that was cut off, or waits for the session that makes it. Where neither ends it, the files as its end will

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::LessonFace;
 use super::save::sum_of;
+use super::{LessonFace, ProjectFault};
 use crate::disk::{Commit, Fault, Pending, Result, Sum, Sums, inside, read_text};
 use crate::emotion::{Binding, CalibrationFile, Marks, sum_of_face, sum_of_marks};
 use crate::face::{Face, FeaturePoint, Placed};
@@ -142,5 +142,5 @@ pub(super) fn near_the_photo(at: [f64; 2]) -> Result<()> {
     if at.iter().all(|v| v.abs() <= crate::face::MAX_COORDINATE) {
         return Ok(());
     }
-    Err(Fault::new("the point would lie nowhere near the photo").help("move it back"))
+    Err(Fault::of(ProjectFault::Edit, "the point would lie nowhere near the photo").help("move it back"))
 }

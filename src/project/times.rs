@@ -4,7 +4,7 @@
 use super::Clip;
 use super::doubts::CONFIDENCE;
 use super::label::label_fits;
-use crate::disk::{Fault, Result, Setting, Task, message};
+use crate::disk::{Fault, FileFault, Result, Setting, Task, message};
 use crate::script::{self, Syllable, System};
 use crate::timeline::Spoken;
 use crate::timing::{self, Interval, Tier, Timing};
@@ -22,7 +22,7 @@ impl Clip {
         let Some(tier) = self.syllable_tier(&timing).cloned() else {
             if timing.shapes().is_none() {
                 let names: Vec<&str> = timing.tiers.iter().map(|t| t.name.as_str()).collect();
-                return Err(Fault::new("there is no tier `syllables`")
+                return Err(Fault::of(FileFault::Unknown, "there is no tier `syllables`")
                     .help(format!("name the tier with the syllables so; its tiers are {}", names.join(", "))));
             }
             // Shapes alone, as other programs of lip movement write them.

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use super::video::FRAMES_FPS;
-use super::{Clip, Lesson, LessonFace};
+use super::{Clip, Lesson, LessonFace, ProjectFault};
 use crate::disk::{Fault, Message, Result, Task, message};
 use crate::emotion::Kept;
 use crate::photo::Photo;
@@ -63,9 +63,10 @@ impl TrackJob {
     /// # Errors
     /// When the clip has no video or no face.
     pub fn of(lesson: &Lesson, number: usize, method: Method, options: Options) -> Result<Self> {
-        let clip = lesson.clips.get(number).ok_or_else(|| Fault::new("there is no such clip"))?;
+        let clip =
+            lesson.clips.get(number).ok_or_else(|| Fault::of(ProjectFault::NoSuchClip, "there is no such clip"))?;
         let Some(video) = clip.video.clone() else {
-            return Err(Fault::new(format!("the clip `{}` has no video", clip.entry.name))
+            return Err(Fault::of(ProjectFault::Incomplete, format!("the clip `{}` has no video", clip.entry.name))
                 .at(&clip.folder)
                 .help("put it there as video.mp4, or as pictures in a folder frames/"));
         };
@@ -74,9 +75,12 @@ impl TrackJob {
             .face_of(&clip.entry)
             .and_then(|entry| lesson.faces.iter().find(|f| f.entry.name == entry.name))
             .ok_or_else(|| {
-                Fault::new(format!("the clip `{}` has no face to compare its video with", clip.entry.name))
-                    .at(&lesson.root)
-                    .help("add a [[face]] to lianpu.toml, and its photo as faces/NAME/neutral.png")
+                Fault::of(
+                    ProjectFault::Incomplete,
+                    format!("the clip `{}` has no face to compare its video with", clip.entry.name),
+                )
+                .at(&lesson.root)
+                .help("add a [[face]] to lianpu.toml, and its photo as faces/NAME/neutral.png")
             })?;
         Ok(Self { video, fps: clip.video_fps(), face: face.clone(), method, options })
     }
@@ -97,7 +101,7 @@ impl TrackJob {
             Method::Regions => {
                 let face = self.face.points()?;
                 let face = face.as_deref().ok_or_else(|| {
-                    Fault::new("the face has no points to find its regions by")
+                    Fault::of(ProjectFault::Incomplete, "the face has no points to find its regions by")
                         .at(&self.face.folder)
                         .help(message![Task::FindFace, " finds them"])
                 })?;

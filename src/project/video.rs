@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::disk::{Fault, Result, inside, list};
+use crate::disk::{Fault, FileFault, Result, inside, list};
 
 /// The folder of a video that is pictures.
 pub(super) const FRAMES: &str = "frames";
@@ -36,7 +36,7 @@ pub(super) fn of(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
         }
         several => {
             let names: Vec<_> = several.iter().filter_map(|p| p.file_name()).map(|n| n.to_string_lossy()).collect();
-            Err(Fault::new(format!("there are several videos: {}", names.join(", ")))
+            Err(Fault::of(FileFault::Duplicate, format!("there are several videos: {}", names.join(", ")))
                 .at(folder)
                 .help("keep one of them"))
         }

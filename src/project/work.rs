@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{AlignJob, Clip, Followed, Lesson, Method, TrackJob, Tracking};
+use super::{AlignJob, Clip, Followed, Lesson, Method, ProjectFault, TrackJob, Tracking};
 use crate::disk::{Fault, Message, NextStep, Result, Setting, Task, message};
 use crate::emotion::Kept;
 use crate::speech::{Alignment, Note};
@@ -52,7 +52,7 @@ impl Lesson {
     pub fn open_to_write(root: &Path, what: &str) -> Result<Self> {
         let lesson = Self::open(root)?;
         if let Some(why) = &lesson.read_only {
-            return Err(Fault::new(format!("{what} cannot be kept: {why}"))
+            return Err(Fault::of(ProjectFault::ReadOnly, format!("{what} cannot be kept: {why}"))
                 .at(root)
                 .help("open it where it can be written"));
         }
@@ -68,11 +68,9 @@ impl Lesson {
         if !self.is_unsaved() {
             return Ok(());
         }
-        Err(Fault::new("the lesson has changes that were never saved").at(&self.root).help(message![
-            "open it in ",
-            Task::Open,
-            " and save or discard them"
-        ]))
+        Err(Fault::of(ProjectFault::Unsaved, "the lesson has changes that were never saved")
+            .at(&self.root)
+            .help(message!["open it in ", Task::Open, " and save or discard them"]))
     }
 
     /// Calibrates a face from its files and saves what is found. Returns it and the files that were written.
@@ -81,7 +79,8 @@ impl Lesson {
     /// When there is no such face, its shots cannot be used, or a file cannot be written.
     pub fn calibrate(&mut self, face: usize) -> Result<(Kept, Vec<PathBuf>)> {
         let folder = self.faces.get(face).map(|f| f.folder.clone());
-        let folder = folder.ok_or_else(|| Fault::new(format!("there is no face number {face}")))?;
+        let folder =
+            folder.ok_or_else(|| Fault::of(ProjectFault::NoSuchFace, format!("there is no face number {face}")))?;
         let kept = Kept::make(&folder)?;
         let written = self.keep_calibration(face, &kept)?;
         Ok((kept, written))
@@ -194,7 +193,7 @@ impl Lesson {
             let name = &clip.entry.name;
             if clip.video.is_none() {
                 if chosen.is_some() {
-                    return Err(Fault::new(format!("the clip `{name}` has no video"))
+                    return Err(Fault::of(ProjectFault::Incomplete, format!("the clip `{name}` has no video"))
                         .at(&clip.folder)
                         .help("put it there as video.mp4, or as pictures in a folder frames/"));
                 }

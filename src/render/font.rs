@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::drawing::{Drawing, Item};
 use crate::geometry::{Affine, BezPath, Point};
 
@@ -24,9 +24,8 @@ impl FontFile {
     pub fn new(bytes: Vec<u8>) -> Result<Self> {
         match Face::parse(&bytes, 0) {
             Ok(_) => Ok(Self(bytes)),
-            Err(e) => {
-                Err(Fault::new(format!("this is no font that can be read: {e}")).help("give a .ttf, .otf or .ttc file"))
-            }
+            Err(e) => Err(Fault::of(FileFault::Unsupported, format!("this is no font that can be read: {e}"))
+                .help("give a .ttf, .otf or .ttc file")),
         }
     }
 

@@ -9,7 +9,7 @@ use super::paint::{Room, paint};
 use super::print::{ByPrint, Print};
 use super::tiles::Grid;
 use super::{FontFile, MAX_SIDE};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::drawing::{Drawing, Item, Layer, Picture, fit};
 use crate::geometry::{Affine, Rect};
 
@@ -73,7 +73,7 @@ impl Painter {
     pub fn new(width: u32, height: u32) -> Result<Self> {
         let fits = |side| (1..=MAX_SIDE).contains(&side);
         if !fits(width) || !fits(height) {
-            return Err(Fault::new(format!("a picture cannot be {width} × {height} pixels"))
+            return Err(Fault::of(FileFault::OutOfRange, format!("a picture cannot be {width} × {height} pixels"))
                 .help(format!("give sides from 1 to {MAX_SIDE}")));
         }
         let area = Area::of_size(width, height);

@@ -1,6 +1,6 @@
 //! Pixels as PNG, with a key that says what they show, so that an interrupted export can tell what is done.
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::drawing::Picture;
 
 /// The keyword of the text chunk that carries the key.
@@ -46,7 +46,7 @@ pub fn encode_png(picture: &Picture, key: &str) -> Result<Vec<u8>> {
         writer.write_image_data(picture.pixels().as_flattened())?;
         writer.finish()
     })();
-    encoded.map_err(|e| Fault::new(format!("the picture cannot be written as PNG: {e}")))?;
+    encoded.map_err(|e| Fault::of(FileFault::OutOfRange, format!("the picture cannot be written as PNG: {e}")))?;
     Ok(bytes)
 }
 

@@ -19,7 +19,7 @@ use super::kind::Kind;
 use super::mix::Mixer;
 use super::mp3;
 use super::read::{RATES, Raw, broken, short_enough};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// Samples that encoders of MP3 put before the sound where the file does not say it: LAME's 576, and the 529 by which
 /// every decoder is late.
@@ -50,7 +50,7 @@ pub(super) fn read(mut file: File, kind: Kind, only: Option<usize>) -> Result<Ra
     let stream = MediaSourceStream::new(Box::new(file), Default::default());
     let opened = symphonia::default::get_probe().probe(&Hint::new(), stream, Default::default(), Default::default());
     let mut format = opened.map_err(|error| match (kind, &index) {
-        (Kind::Iso, None) => Fault::new("the recording was never finished: its index is missing")
+        (Kind::Iso, None) => Fault::of(FileFault::CutOff, "the recording was never finished: its index is missing")
             .help("record it again, or repair it with a program such as untrunc"),
         _ => Fault::new(format!("cannot find the sound in it: {error}")),
     })?;
@@ -59,7 +59,8 @@ pub(super) fn read(mut file: File, kind: Kind, only: Option<usize>) -> Result<Ra
     let Some((rate, mut mixer)) = decoding.mixer.take() else {
         return Err(match decoding.failed {
             Some(error) => Fault::new(format!("cannot decode its sound: {error}")),
-            None => Fault::new("there is no sound in the file").help("was it cut off? record or save it again"),
+            None => Fault::of(FileFault::Empty, "there is no sound in the file")
+                .help("was it cut off? record or save it again"),
         });
     };
     let delay = match index.and_then(|index| index.edit(decoding.track, rate)) {
@@ -97,7 +98,8 @@ pub(super) fn read(mut file: File, kind: Kind, only: Option<usize>) -> Result<Ra
         warnings.push(format!("{parts} damaged and silent, the first at {first:.2} s"));
     }
     if mixer.frames() == 0 {
-        return Err(Fault::new("there is no sound in the file").help("was it cut off? record or save it again"));
+        return Err(Fault::of(FileFault::Empty, "there is no sound in the file")
+            .help("was it cut off? record or save it again"));
     }
     Ok(Raw { rate, mixed: mixer.done(), warnings })
 }
@@ -157,9 +159,11 @@ impl Decoding {
             }
         }
         Err(match refused {
-            Some(name) => Fault::new(format!("its sound is compressed as {name}, which is not read")),
-            None if tracks.is_empty() => Fault::new("there is no sound in the file"),
-            None => Fault::new("there is no sound track that can be read in the file"),
+            Some(name) => {
+                Fault::of(FileFault::Unsupported, format!("its sound is compressed as {name}, which is not read"))
+            }
+            None if tracks.is_empty() => Fault::of(FileFault::Empty, "there is no sound in the file"),
+            None => Fault::of(FileFault::Empty, "there is no sound track that can be read in the file"),
         })
     }
 
@@ -207,7 +211,10 @@ impl Decoding {
             return Ok(true);
         }
         if channels == 0 || !RATES.contains(&rate) {
-            return Err(Fault::new(format!("the file says that it has {channels} channels, {rate} samples a second")));
+            return Err(Fault::of(
+                FileFault::Mismatch,
+                format!("the file says that it has {channels} channels, {rate} samples a second"),
+            ));
         }
         let only = self.only;
         let (known, mixer) = self.mixer.get_or_insert_with(|| (rate, Mixer::new(channels, only, 0)));

@@ -7,6 +7,7 @@ pub mod align;
 mod alignment;
 mod decimate;
 mod decode;
+mod fault;
 mod fourier;
 mod iso;
 mod kind;
@@ -29,6 +30,7 @@ mod wav_writer;
 
 pub use align::align;
 pub use alignment::{Alignment, Note, Pin, SURE, SpokenPhone, SpokenSyllable, Take};
+pub use fault::SpeechFault;
 pub use nuclei::{Heard, nuclei};
 pub use pitch::{Pitch, pitch};
 pub use quality::Quality;

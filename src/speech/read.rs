@@ -6,7 +6,7 @@ use std::path::Path;
 use super::kind::{HEAD, Kind, kind};
 use super::mix::Mixed;
 use super::{Sound, decode, wav};
-use crate::disk::{Fault, Result, open};
+use crate::disk::{Fault, FileFault, Result, open};
 
 /// The largest file that is read. Its samples lie in memory.
 const MAX_BYTES: u64 = 2 << 30;
@@ -48,7 +48,7 @@ fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
     let mut file = open(path).map_err(|error| Fault::io("cannot open it", path, error))?;
     let bytes = file.metadata().map_err(broken)?.len();
     if bytes > MAX_BYTES {
-        return Err(Fault::new("the file is larger than 2 GB").help("cut the recording into clips"));
+        return Err(Fault::of(FileFault::TooLarge, "the file is larger than 2 GB").help("cut the recording into clips"));
     }
     let mut head = Vec::with_capacity(HEAD);
     file.by_ref().take(HEAD as u64).read_to_end(&mut head).map_err(broken)?;
@@ -60,7 +60,9 @@ fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
             }
         }
         Kind::Foreign(what) => {
-            return Err(Fault::new(format!("it is {what}, which is not read")).help(convert(path)));
+            return Err(
+                Fault::of(FileFault::Unsupported, format!("it is {what}, which is not read")).help(convert(path))
+            );
         }
         Kind::Unknown => {
             let what = if bytes == 0 { "the file is empty" } else { "it is no recording that is known" };
@@ -77,7 +79,7 @@ fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
 /// Makes sure that it is no longer than what is read.
 pub(super) fn short_enough(frames: u64, rate: u32) -> Result<()> {
     if frames > MAX_SECONDS * u64::from(rate) {
-        return Err(Fault::new("the recording is longer than 4 hours").help("cut it into clips"));
+        return Err(Fault::of(FileFault::TooLarge, "the recording is longer than 4 hours").help("cut it into clips"));
     }
     Ok(())
 }

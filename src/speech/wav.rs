@@ -7,7 +7,7 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use super::mix::Mixer;
 use super::read::{Raw, broken};
 use super::wav_form::Form;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// Lengths from here on are not lengths: programs that write to a pipe, or crash, leave such numbers behind.
 const UNFINISHED: u64 = 0x7FFF_0000;
@@ -17,7 +17,8 @@ pub(super) fn read(file: &mut File, bytes: u64, only: Option<usize>) -> Result<O
     let chunks = Chunks::find(file, bytes).map_err(broken)?;
     let Some(form) = Form::of(&chunks.form)? else { return Ok(None) };
     let Some((start, said)) = chunks.data else {
-        return Err(Fault::new("there is no sound in the file").help("was it cut off? record or save it again"));
+        return Err(Fault::of(FileFault::Empty, "there is no sound in the file")
+            .help("was it cut off? record or save it again"));
     };
     let there = bytes.saturating_sub(start);
     let mut warnings = Vec::new();
@@ -37,7 +38,8 @@ pub(super) fn read(file: &mut File, bytes: u64, only: Option<usize>) -> Result<O
     };
     let frames = used / frame;
     if frames == 0 {
-        return Err(Fault::new("there is no sound in the file").help("its part for samples is empty: record it again"));
+        return Err(Fault::of(FileFault::Empty, "there is no sound in the file")
+            .help("its part for samples is empty: record it again"));
     }
     super::read::short_enough(frames, form.rate)?;
     file.seek(SeekFrom::Start(start)).map_err(broken)?;

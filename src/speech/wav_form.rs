@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::read::{RATES, SAVE_AS_WAV};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// How samples are written.
 pub(super) struct Form {
@@ -40,11 +40,12 @@ impl Form {
         let rate = u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]);
         if channels == 0 || !RATES.contains(&rate) {
             let what = if channels == 0 { "0 channels".to_owned() } else { format!("{rate} samples a second") };
-            return Err(Fault::new(format!("the file says that it has {what}")).help(SAVE_AS_WAV));
+            return Err(Fault::of(FileFault::Mismatch, format!("the file says that it has {what}")).help(SAVE_AS_WAV));
         }
         let container = if align >= channels && align % channels == 0 { align / channels } else { bits.div_ceil(8) };
         if container.checked_mul(channels).is_none() {
-            return Err(Fault::new(format!("the file says that it has {channels} channels")).help(SAVE_AS_WAV));
+            return Err(Fault::of(FileFault::Mismatch, format!("the file says that it has {channels} channels"))
+                .help(SAVE_AS_WAV));
         }
         let (code, known, what) = match tag {
             1 => (Code::Whole, (1..=4).contains(&container) && (1..=container * 8).contains(&bits), "whole numbers"),
@@ -56,7 +57,8 @@ impl Form {
         if known {
             return Ok(Some(Self { channels, rate, container, code }));
         }
-        Err(Fault::new(format!("the samples are {what} of {bits} bits, which is not read")).help(SAVE_AS_WAV))
+        Err(Fault::of(FileFault::Unsupported, format!("the samples are {what} of {bits} bits, which is not read"))
+            .help(SAVE_AS_WAV))
     }
 
     /// Bytes of one sample of every channel.

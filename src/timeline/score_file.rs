@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::blink::BLINK_SECONDS;
 use super::{Ease, Key, KeyValue, Marker, Range, Score, Track};
-use crate::disk::{Fault, Result, from_toml};
+use crate::disk::{Fault, FileFault, Result, from_toml};
 use crate::pose::{Emotion, Gaze, Head, Ratios};
 
 impl Score {
@@ -17,7 +17,8 @@ impl Score {
         let line_of = |span: std::ops::Range<usize>| 1 + text[..span.start.min(text.len())].matches('\n').count();
         // TOML's integers end there, so a larger seed could be read and not written.
         if i64::try_from(file.seed).is_err() {
-            return Err(Fault::new(format!("`seed` is {}", file.seed)).help(format!("give at most {}", i64::MAX)));
+            return Err(Fault::of(FileFault::OutOfRange, format!("`seed` is {}", file.seed))
+                .help(format!("give at most {}", i64::MAX)));
         }
         let mut score = Self { seed: file.seed, auto_blink: file.auto_blink, pins: file.pins, ..Self::default() };
         score.pins.sort_unstable();
@@ -166,7 +167,7 @@ impl FileKey {
                 let ratios = Ratios(by_emotion(table, "value", 0.0)?);
                 let given = table.contains_key("neutral");
                 if given && (ratios.sum() - 1.0).abs() > 1e-6 {
-                    return Err(Fault::new(format!("the seven ratios sum to {}", ratios.sum()))
+                    return Err(Fault::of(FileFault::Mismatch, format!("the seven ratios sum to {}", ratios.sum()))
                         .help("they must sum to 1; leave `neutral` out and it is made up"));
                 }
                 KeyValue::Emotion(if given { ratios } else { ratios.closed() })
@@ -197,7 +198,9 @@ impl FileKey {
                 };
                 return Err(wrong(v, wanted));
             }
-            (_, None) => return Err(Fault::new("a key has no `value`").help("give what holds at its time")),
+            (_, None) => {
+                return Err(Fault::of(FileFault::Missing, "a key has no `value`").help("give what holds at its time"));
+            }
         };
         if let Some(time) = self.replaces {
             checked_time(time, "replaces")?;
@@ -219,12 +222,12 @@ impl FileRange {
         checked_time(self.from, "from")?;
         checked_time(self.to, "to")?;
         if self.to <= self.from {
-            return Err(
-                Fault::new(format!("a range runs from {} to {}", self.from, self.to)).help("end it after its start")
-            );
+            return Err(Fault::of(FileFault::OutOfRange, format!("a range runs from {} to {}", self.from, self.to))
+                .help("end it after its start"));
         }
         if !(0.0..=10.0).contains(&self.smooth) {
-            return Err(Fault::new(format!("`smooth` is {}", self.smooth)).help("give seconds from 0 to 10"));
+            return Err(Fault::of(FileFault::OutOfRange, format!("`smooth` is {}", self.smooth))
+                .help("give seconds from 0 to 10"));
         }
         if self.scale.contains_key("neutral") || self.offset.contains_key("neutral") {
             return Err(Fault::new("a range edit cannot change `neutral`")
@@ -237,14 +240,14 @@ impl FileRange {
 }
 
 fn wrong(found: &toml::Value, wanted: &str) -> Fault {
-    Fault::new(format!("`value` is {found}")).help(format!("give {wanted}"))
+    Fault::of(FileFault::OutOfRange, format!("`value` is {found}")).help(format!("give {wanted}"))
 }
 
 fn checked_time(time: f64, what: &str) -> Result<()> {
     if time.is_finite() && (0.0..=86_400.0).contains(&time) {
         Ok(())
     } else {
-        Err(Fault::new(format!("`{what}` is {time}")).help("give seconds from 0 to 86400"))
+        Err(Fault::of(FileFault::OutOfRange, format!("`{what}` is {time}")).help("give seconds from 0 to 86400"))
     }
 }
 
@@ -270,7 +273,8 @@ fn by_emotion(table: &toml::Table, what: &str, usual: f64) -> Result<[f64; 7]> {
             Fault::new(format!("{e} (in `{what}`)")).help(crate::disk::suggestion(name, "known", &known))
         })?;
         out[emotion.index()] = number(value).filter(|v| v.abs() <= 100.0).ok_or_else(|| {
-            Fault::new(format!("`{name}` in `{what}` is {value}")).help("give a number from −100 to 100")
+            Fault::of(FileFault::OutOfRange, format!("`{name}` in `{what}` is {value}"))
+                .help("give a number from −100 to 100")
         })?;
     }
     Ok(out)

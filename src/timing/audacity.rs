@@ -7,7 +7,7 @@
 use super::clock::{number, one_line};
 use super::layer::Layer;
 use super::{Interval, Timing};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// What the labels of a track are taken for.
 const TIER: &str = "syllables";
@@ -52,7 +52,7 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
         layer.lay(start, end, label).map_err(|fault| fault.line(index + 1))?;
     }
     let Some((tier, until)) = layer.map(Layer::done) else {
-        return Err(Fault::new("there is no label in the file").help("was it written to the end?"));
+        return Err(Fault::of(FileFault::Empty, "there is no label in the file").help("was it written to the end?"));
     };
     timing.add_read(tier, until)?;
     Ok(timing)

@@ -7,7 +7,7 @@ use super::Timing;
 use super::clock::seconds;
 use super::layer::Layer;
 use super::tiers::{MAX_TIERS, too_many_tiers};
-use crate::disk::{CsvTable, Fault, Result};
+use crate::disk::{CsvTable, Fault, FileFault, Result};
 
 const COLUMNS: [&str; 4] = ["tier", "start", "end", "label"];
 
@@ -24,13 +24,13 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
     let table = CsvTable::read(text)?;
     let header_fault = |fault: Fault| fault.help("the first line must be `tier,start,end,label`");
     if table.names.is_empty() {
-        return Err(header_fault(Fault::new("the file is empty")));
+        return Err(header_fault(Fault::of(FileFault::Empty, "the file is empty")));
     }
     let mut places = [0; 4];
     for (place, column) in places.iter_mut().zip(COLUMNS) {
-        *place = table
-            .column(column)
-            .ok_or_else(|| header_fault(Fault::new(format!("the column `{column}` is missing")).line(table.line)))?;
+        *place = table.column(column).ok_or_else(|| {
+            header_fault(Fault::of(FileFault::Missing, format!("the column `{column}` is missing")).line(table.line))
+        })?;
     }
     // Rows may come by tier or by time: they are gathered by tier and put in order before they are laid.
     let mut tiers: Vec<(String, Vec<Row>)> = Vec::new();

@@ -9,7 +9,7 @@ use super::clock::{number, one_line, seconds};
 use super::layer::Layer;
 use super::tiers::{MAX_TIERS, too_many_tiers};
 use super::{Interval, Timing};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 const TIER: &str = "words";
 
@@ -57,7 +57,7 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
         }
     }
     if tiers.is_empty() {
-        return Err(Fault::new("there is no word in the file").help("was it written to the end?"));
+        return Err(Fault::of(FileFault::Empty, "there is no word in the file").help("was it written to the end?"));
     }
     let one = tiers.len() == 1;
     let mut timing = Timing::default();

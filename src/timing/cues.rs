@@ -7,7 +7,7 @@
 use super::clock::{clock, parse_clock};
 use super::layer::Layer;
 use super::{Interval, Timing};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// What a subtitle's intervals are taken for.
 const TIER: &str = "syllables";
@@ -43,7 +43,7 @@ pub(super) fn parse_vtt(text: &str) -> Result<Timing> {
 fn done(layer: Layer) -> Result<Timing> {
     let (tier, until) = layer.done();
     if until == 0.0 && tier.intervals.is_empty() {
-        return Err(Fault::new("there is no cue in the file").help("was it written to the end?"));
+        return Err(Fault::of(FileFault::Empty, "there is no cue in the file").help("was it written to the end?"));
     }
     let mut timing = Timing::default();
     timing.add_read(tier, until)?;

@@ -1,6 +1,6 @@
 //! Bytes to text: UTF-8 or UTF-16, as Praat writes it, with or without a byte order mark.
 
-use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
+use crate::disk::{self, Fault, FileFault, MAX_TEXT_BYTES, Result};
 
 /// The text of a timing file, cleaned; lines keep their numbers.
 ///
@@ -8,7 +8,7 @@ use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
 /// When it is too large, or neither UTF-8 nor UTF-16, with the line where that shows.
 pub(super) fn text(bytes: &[u8]) -> Result<String> {
     if bytes.len() as u64 > MAX_TEXT_BYTES {
-        return Err(Fault::new(format!("the file is larger than {} MB", MAX_TEXT_BYTES >> 20))
+        return Err(Fault::of(FileFault::TooLarge, format!("the file is larger than {} MB", MAX_TEXT_BYTES >> 20))
             .help("timing files are far smaller; is it the right one?"));
     }
     match bytes {
@@ -21,7 +21,7 @@ pub(super) fn text(bytes: &[u8]) -> Result<String> {
             let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
             std::str::from_utf8(bytes).map(disk::clean).map_err(|error| {
                 let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-                Fault::new("the file is neither UTF-8 nor UTF-16 text")
+                Fault::of(FileFault::Encoding, "the file is neither UTF-8 nor UTF-16 text")
                     .line(line)
                     .help("save it as UTF-8 and try again")
             })
@@ -38,7 +38,9 @@ fn wide(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String> {
             Ok(c) => text.push(c),
             Err(_) => {
                 let line = 1 + text.matches('\n').count();
-                return Err(Fault::new("the file is not whole UTF-16 text").line(line).help("save it as UTF-8"));
+                return Err(Fault::of(FileFault::CutOff, "the file is not whole UTF-16 text")
+                    .line(line)
+                    .help("save it as UTF-8"));
             }
         }
     }

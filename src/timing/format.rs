@@ -5,7 +5,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::{Tier, Timing, audacity, clock, csv, ctm, cues, decode, json, lab, moho, rhubarb, shapes, textgrid};
-use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result, Setting, message};
+use crate::disk::{self, Fault, FileFault, MAX_TEXT_BYTES, Result, Setting, message};
 
 /// A way to write times down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -235,7 +235,7 @@ pub fn read(path: &Path) -> Result<Timing> {
 pub fn read_at(path: &Path, fps: f64) -> Result<Timing> {
     let bytes = disk::read_bytes(path, MAX_TEXT_BYTES)?;
     let format = Format::sniff(&bytes).or_else(|| Format::from_path(path)).ok_or_else(|| {
-        Fault::new("neither its name nor its content says which timing format it is")
+        Fault::of(FileFault::Unsupported, "neither its name nor its content says which timing format it is")
             .at(path)
             .help(format!("the formats are {}", Format::ALL.map(Format::name).join(", ")))
     })?;
@@ -249,14 +249,18 @@ pub fn read_at(path: &Path, fps: f64) -> Result<Timing> {
 pub fn writable(timing: &Timing, format: Format) -> Result<()> {
     if format.holds_shapes() {
         let none = || {
-            Fault::new(format!("`{format}` holds mouth shapes, and there is no tier `{}`", shapes::TIER))
-                .help("write it as textgrid, srt, vtt, csv, json, audacity, ctm or lab")
+            Fault::of(
+                FileFault::Unknown,
+                format!("`{format}` holds mouth shapes, and there is no tier `{}`", shapes::TIER),
+            )
+            .help("write it as textgrid, srt, vtt, csv, json, audacity, ctm or lab")
         };
         return shapes::check_shapes(timing.shapes().ok_or_else(none)?);
     }
     let nothing = timing.subtitles().is_none_or(|tier| tier.intervals.is_empty());
     if nothing && format.holds_one_tier() {
-        return Err(Fault::new("there is no label to write").help(message!["name another tier by ", Setting::Tier]));
+        return Err(Fault::of(FileFault::Empty, "there is no label to write")
+            .help(message!["name another tier by ", Setting::Tier]));
     }
     Ok(())
 }
@@ -290,9 +294,8 @@ pub fn write(timing: &Timing, format: Format) -> String {
 pub fn write_tier(timing: &Timing, format: Format, name: &str) -> Result<String> {
     let Some(tier) = timing.tier(name) else {
         let names: Vec<&str> = timing.tiers.iter().map(|t: &Tier| t.name.as_str()).collect();
-        return Err(
-            Fault::new(format!("there is no tier `{name}`")).help(format!("the tiers are {}", names.join(", ")))
-        );
+        return Err(Fault::of(FileFault::Unknown, format!("there is no tier `{name}`"))
+            .help(format!("the tiers are {}", names.join(", "))));
     };
     let mut tier = tier.clone();
     if format.holds_shapes() {

@@ -45,10 +45,9 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
     for tier in read.tiers {
         let mut layer = Layer::new(&tier.name);
         for (index, i) in tier.intervals.iter().enumerate() {
-            layer.lay(i.start, i.end, &i.label).map_err(|fault| {
-                let what = format!("tier `{}`, interval {}: {}", tier.name, index + 1, fault.what());
-                Fault::new(what).help(fault.advice())
-            })?;
+            layer
+                .lay(i.start, i.end, &i.label)
+                .map_err(|fault| fault.in_part(format_args!("tier `{}`, interval {}", tier.name, index + 1)))?;
         }
         let (tier, until) = layer.done();
         timing.add_read(tier, until)?;

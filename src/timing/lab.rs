@@ -6,7 +6,7 @@
 use super::clock::{number, one_line};
 use super::layer::Layer;
 use super::{Interval, Timing};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 const TIER: &str = "syllables";
 
@@ -57,7 +57,7 @@ pub(super) fn parse(text: &str) -> Result<Timing> {
     }
     let (tier, until) = layer.done();
     if until == 0.0 && tier.intervals.is_empty() {
-        return Err(Fault::new("there is no label in the file").help("was it written to the end?"));
+        return Err(Fault::of(FileFault::Empty, "there is no label in the file").help("was it written to the end?"));
     }
     let mut timing = Timing::default();
     timing.add_read(tier, until)?;

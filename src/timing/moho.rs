@@ -7,7 +7,7 @@
 use super::clock::number;
 use super::shapes::{Cues, Naming, TIER, tiled};
 use super::{Tier, Timing};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// Frames a second of a Moho file that does not say how many.
 pub const FPS: f64 = 24.0;
@@ -34,7 +34,9 @@ pub(super) fn parse(text: &str, mut fps: f64) -> Result<Timing> {
         };
         if frame == "FPS" {
             let help = "frames a second are from 1 to 240";
-            let wrong = || Fault::new(format!("`{}` are no frames a second", shape.trim())).line(line).help(help);
+            let wrong = || {
+                Fault::of(FileFault::Empty, format!("`{}` are no frames a second", shape.trim())).line(line).help(help)
+            };
             fps = number(shape.trim()).filter(|fps| (1.0..=240.0).contains(fps)).ok_or_else(wrong)?;
             continue;
         }

@@ -77,7 +77,7 @@ pub(super) fn parse_json(text: &str) -> Result<Timing> {
     let mut cues = Cues::new();
     for (index, cue) in read.cues.iter().enumerate() {
         cues.lay(cue.start, cue.end, &cue.value, Naming::Rhubarb)
-            .map_err(|fault| Fault::new(format!("mouth cue {}: {}", index + 1, fault.what())).help(fault.advice()))?;
+            .map_err(|fault| fault.in_part(format_args!("mouth cue {}", index + 1)))?;
     }
     cues.done(checked(read.metadata.duration)?)
 }

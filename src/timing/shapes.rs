@@ -18,7 +18,7 @@
 
 use super::layer::Layer;
 use super::{Interval, Tier, Timing};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::pose::MouthShape;
 
 /// The tier.
@@ -67,7 +67,7 @@ impl Naming {
             Self::Rhubarb => "A B C D E F G H X",
             Self::PrestonBlair => "AI E O U etc L WQ MBP FV rest, or A to H and X",
         };
-        Fault::new(format!("`{name}` is no mouth shape")).help(format!("the shapes are {names}"))
+        Fault::of(FileFault::Empty, format!("`{name}` is no mouth shape")).help(format!("the shapes are {names}"))
     }
 }
 
@@ -91,7 +91,9 @@ impl Cues {
     pub fn done(self, duration: f64) -> Result<Timing> {
         let (tier, until) = self.0.done();
         if until == 0.0 && tier.intervals.is_empty() && duration == 0.0 {
-            return Err(Fault::new("there is no mouth shape in the file").help("was it written to the end?"));
+            return Err(
+                Fault::of(FileFault::Empty, "there is no mouth shape in the file").help("was it written to the end?")
+            );
         }
         let mut timing = Timing::default();
         timing.add_read(tier, until.max(duration))?;

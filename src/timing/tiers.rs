@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// As many tiers as a file may have. People use fewer than ten; names are looked for one by one.
 pub(super) const MAX_TIERS: usize = 256;
@@ -180,7 +180,7 @@ impl Timing {
 }
 
 pub(super) fn too_many_tiers() -> Fault {
-    Fault::new(format!("there are more than {MAX_TIERS} tiers")).help("is it a timing file?")
+    Fault::of(FileFault::TooLarge, format!("there are more than {MAX_TIERS} tiers")).help("is it a timing file?")
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::gather::{Instant, Rest, Seen, gathered, step};
 use super::gaze::iris;
 use super::measure::Neutral;
 use super::said::ranges;
-use super::{Frame, GoOn, Options, Source, Tracked, stopped};
+use super::{Frame, GoOn, Options, Source, TrackFault, Tracked, stopped};
 use crate::aam::{Fit, Grey, Model};
 use crate::disk::{Fault, Message, Result};
 use crate::emotion::Calibration;
@@ -40,7 +40,7 @@ pub fn by_aam(
     }
     let Some(rest) = Rest::of(&instants) else {
         let seen = if instants.is_empty() { "the video has no frames" } else { "the calibrated face is in no frame" };
-        return Err(Fault::new(seen).at(source.path()).help(
+        return Err(Fault::of(TrackFault::NoFace, seen).at(source.path()).help(
             "is it a video of the same person, seen from the front? a calibration from its own frames fits best",
         ));
     };

@@ -5,6 +5,7 @@
 //! `emotion`'s.
 
 mod by_aam;
+mod fault;
 mod follow;
 mod frames;
 mod gather;
@@ -16,6 +17,7 @@ mod relay;
 mod said;
 
 pub use by_aam::by_aam;
+pub use fault::TrackFault;
 pub use follow::Follower;
 pub use frames::{Ffmpeg, Frame, Frames, Scan, Source, Y4m, sound_of};
 pub use live::Live;
@@ -62,5 +64,5 @@ pub type GoOn<'a> = &'a mut dyn FnMut(usize, Option<usize>) -> bool;
 
 /// The fault of what was stopped.
 fn stopped() -> Fault {
-    Fault::new("the tracking was stopped").help("nothing was changed; start it again when you like")
+    Fault::of(TrackFault::Stopped, "the tracking was stopped").help("nothing was changed; start it again when you like")
 }

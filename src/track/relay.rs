@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 
 use super::{Live, Options, Y4m};
 use crate::aam::Model;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::{Calibration, LprWriter};
 
 /// Reads YUV4MPEG2 and writes the compact record of it with eyes, mouth and head, each frame as soon as it was seen and
@@ -40,7 +40,7 @@ pub fn relay<W: Write>(
     record.finish()?;
     end?;
     if count == 0 {
-        return Err(Fault::new("the stream has no frames").help("does what writes it say why?"));
+        return Err(Fault::of(FileFault::Empty, "the stream has no frames").help("does what writes it say why?"));
     }
     Ok((count, lost))
 }

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use super::number::{coordinate, count, miscounted, short};
 use super::{Annotation, Line, Unit};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 
 /// The bit of a point's type which says that its line does not close.
@@ -23,7 +23,9 @@ pub(super) fn parse(text: &str) -> Result<Annotation> {
         .map(|(i, l)| (i + 1, l.split('#').next().unwrap_or_default().trim()))
         .filter(|(_, l)| !l.is_empty());
     let Some((at, first)) = rows.next() else {
-        return Err(Fault::new("there are no points").line(1).help("is the file empty? copy it again"));
+        return Err(Fault::of(FileFault::Empty, "there are no points")
+            .line(1)
+            .help("is the file empty? copy it again"));
     };
     let said = count(first, at)?;
     let mut annotation = Annotation { unit: Unit::Shares, ..Annotation::default() };
@@ -65,7 +67,7 @@ pub(super) fn parse(text: &str) -> Result<Annotation> {
             annotation.picture = Some(row.to_owned());
             Ok(annotation)
         }
-        None => Err(Fault::new("the picture's name is missing")
+        None => Err(Fault::of(FileFault::Missing, "the picture's name is missing")
             .line(last)
             .help("is the file cut off? after the points comes the name of the picture they are of")),
     }

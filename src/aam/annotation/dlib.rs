@@ -9,27 +9,31 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::number::{coordinate, count, short};
 use super::{Annotation, MAX_PICTURES, Unit};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::{Point, Rect};
 
 pub(super) fn parse(text: &str) -> Result<Vec<Annotation>> {
     let options = ParsingOptions { allow_dtd: false, nodes_limit: 20_000_000, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let line = error.pos().row as usize;
-        Fault::new(format!("this is not whole XML: {error}")).line(line).help("is the file cut off? copy it again")
+        Fault::of(FileFault::CutOff, format!("this is not whole XML: {error}"))
+            .line(line)
+            .help("is the file cut off? copy it again")
     })?;
     let line_of = |node: Node| document.text_pos_at(node.range().start).row as usize;
     let mut list = Vec::new();
     for image in document.descendants().filter(|n| n.has_tag_name("image")) {
         let Some(file) = image.attribute("file") else {
-            return Err(Fault::new("an image has no `file`").line(line_of(image)).help("write <image file='NAME'>"));
+            return Err(Fault::of(FileFault::Missing, "an image has no `file`")
+                .line(line_of(image))
+                .help("write <image file='NAME'>"));
         };
         for node in image.children().filter(|n| n.has_tag_name("box")) {
             if let Some(annotation) = face(node, file, &line_of)? {
                 list.push(annotation);
             }
             if list.len() > MAX_PICTURES {
-                return Err(Fault::new(format!("there are more than {MAX_PICTURES} faces"))
+                return Err(Fault::of(FileFault::TooLarge, format!("there are more than {MAX_PICTURES} faces"))
                     .line(line_of(node))
                     .help("split the file"));
             }
@@ -78,12 +82,15 @@ pub(super) fn write(list: &[Annotation]) -> Result<String> {
     for faces in list.chunk_by(|a, b| a.picture == b.picture) {
         let file = faces.first().and_then(|f| f.picture.as_deref());
         let Some(file) = file else {
-            return Err(Fault::new("a picture has no name").help("dlib's XML names every picture"));
+            return Err(Fault::of(FileFault::Missing, "a picture has no name").help("dlib's XML names every picture"));
         };
         let _ = writeln!(text, "  <image file='{}'>", escaped(file));
         for face in faces {
             if face.unit != Unit::Pixels {
-                return Err(Fault::new("dlib's XML holds pixels, and the size of a picture is not known"));
+                return Err(Fault::of(
+                    FileFault::Missing,
+                    "dlib's XML holds pixels, and the size of a picture is not known",
+                ));
             }
             let around = || {
                 let around = |r: Option<Rect>, p: &Point| Some(r.map_or(Rect::from_points(*p, *p), |r| r.union_pt(*p)));

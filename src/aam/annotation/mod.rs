@@ -12,7 +12,7 @@ mod pts;
 
 use std::path::Path;
 
-use crate::disk::{Fault, Result, read_text};
+use crate::disk::{Fault, FileFault, Result, read_text};
 use crate::geometry::{Point, Rect};
 
 /// The most points that one annotation may have.
@@ -121,7 +121,7 @@ impl Annotation {
             Some(Format::Asf) => asf::parse(text).map(|a| vec![a]),
             Some(Format::Dlib) => dlib::parse(text),
             Some(Format::Face) => face_toml::parse(text).map(|a| vec![a]),
-            None => Err(Fault::new("this is no annotation that can be read")
+            None => Err(Fault::of(FileFault::Unsupported, "this is no annotation that can be read")
                 .help("give an iBUG .pts, an IMM .asf, a dlib .xml or a face.toml")),
         }
     }
@@ -143,7 +143,10 @@ impl Annotation {
             (Format::Pts, [one]) => pts::write(one),
             (Format::Asf, [one]) => asf::write(one),
             (Format::Dlib, list) => dlib::write(list),
-            (Format::Face, _) => Err(Fault::new("a face.toml holds more than points").help("write .pts, .asf or .xml")),
+            (Format::Face, _) => {
+                Err(Fault::of(FileFault::TooLarge, "a face.toml holds more than points")
+                    .help("write .pts, .asf or .xml"))
+            }
             _ => Err(Fault::new("this format holds the points of one picture").help("write .xml, or a file a picture")),
         }
     }

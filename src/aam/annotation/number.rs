@@ -1,7 +1,7 @@
 //! Numbers in annotations.
 
 use super::MAX_POINTS;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::face::MAX_COORDINATE;
 
 /// A finite coordinate that can lie in a picture's neighbourhood.
@@ -35,7 +35,7 @@ pub(super) fn short(word: &str) -> String {
 
 /// More or fewer points than were promised.
 pub(super) fn miscounted(said: usize, found: usize, line: usize) -> Fault {
-    Fault::new(format!("{said} points are announced, and there are {found}"))
+    Fault::of(FileFault::Mismatch, format!("{said} points are announced, and there are {found}"))
         .line(line)
         .help("is the file cut off? correct the number, or copy the file again")
 }

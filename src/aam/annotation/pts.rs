@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::number::{coordinate, count, miscounted, short};
 use super::{Annotation, Unit};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 
 pub(super) fn parse(text: &str) -> Result<Annotation> {
@@ -23,7 +23,9 @@ pub(super) fn parse(text: &str) -> Result<Annotation> {
             (true, "}") => {
                 return match said {
                     Some((said, at)) if said != points.len() => Err(miscounted(said, points.len(), at)),
-                    _ if points.is_empty() => Err(Fault::new("there are no points").line(number).help(SHAPE)),
+                    _ if points.is_empty() => {
+                        Err(Fault::of(FileFault::Empty, "there are no points").line(number).help(SHAPE))
+                    }
                     _ => Ok(Annotation::of_points(points)),
                 };
             }
@@ -43,14 +45,17 @@ pub(super) fn parse(text: &str) -> Result<Annotation> {
             }
         }
     }
-    Err(Fault::new("the closing brace is missing").line(last).help("is the file cut off? copy it again"))
+    Err(Fault::of(FileFault::CutOff, "the closing brace is missing")
+        .line(last)
+        .help("is the file cut off? copy it again"))
 }
 
 const SHAPE: &str = "after `version: 1` and `n_points: N` come `{`, a point a line, and `}`";
 
 pub(super) fn write(annotation: &Annotation) -> Result<String> {
     if annotation.unit != Unit::Pixels {
-        return Err(Fault::new("a .pts holds pixels, and the size of the picture is not known").help("write .asf"));
+        return Err(Fault::of(FileFault::Missing, "a .pts holds pixels, and the size of the picture is not known")
+            .help("write .asf"));
     }
     let mut text = format!("version: 1\nn_points: {}\n{{\n", annotation.points.len());
     for point in &annotation.points {

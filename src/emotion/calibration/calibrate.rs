@@ -9,7 +9,7 @@ use super::settle::Settling;
 use super::spread::Spread;
 use super::{Calibration, Shape, Source};
 use crate::aam::{Grey, Model};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{FeaturePoint as P, How, Part, Placed};
@@ -46,7 +46,8 @@ pub(super) struct Ground {
 impl Ground {
     pub fn of(inputs: &Inputs) -> Result<Self> {
         let at = |p: P| inputs.named.iter().find(|(n, _)| *n == p).map(|n| n.1);
-        let missing = || Fault::new("the pupils of the neutral photo are not known").help("set 3.6 and 3.5");
+        let missing =
+            || Fault::of(FileFault::Missing, "the pupils of the neutral photo are not known").help("set 3.6 and 3.5");
         let (left, right) = (at(P::P3_6).ok_or_else(missing)?, at(P::P3_5).ok_or_else(missing)?);
         let across = right - left;
         if across.hypot().is_nan() || across.hypot() <= 1.0 {
@@ -54,7 +55,8 @@ impl Ground {
         }
         let frame = Similarity::spanning(left, right);
         let named: Vec<(P, Point)> = inputs.named.iter().map(|(p, at)| (*p, frame.undo(*at))).collect();
-        let first = inputs.shots[0].as_ref().ok_or_else(|| Fault::new("there is no neutral shot"))?;
+        let first =
+            inputs.shots[0].as_ref().ok_or_else(|| Fault::of(FileFault::Missing, "there is no neutral shot"))?;
         let points: Vec<Point> = first.points.iter().map(|p| frame.undo(p.at)).collect();
         let moves = Moves::of(&named);
         let spread = Spread::new(&inputs.binding, &points, &named);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quality::Quality;
 use super::{Calibration, Shape, Source};
-use crate::disk::{Fault, Message, Result, Task, from_toml, message, read_text};
+use crate::disk::{Fault, FileFault, Message, Result, Task, from_toml, message, read_text};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint, MAX_COORDINATE};
 use crate::geometry::Point;
@@ -84,7 +84,8 @@ impl CalibrationFile {
             binding: self.calibration.binding().rows().iter().map(|(p, sum)| (p.name(), sum.clone())).collect(),
             quality: self.quality.clone(),
         };
-        toml::to_string(&table).map_err(|e| Fault::new(format!("the calibration cannot be written: {e}")))
+        toml::to_string(&table)
+            .map_err(|e| Fault::of(FileFault::OutOfRange, format!("the calibration cannot be written: {e}")))
     }
 
     /// Reads the text of the file.
@@ -92,28 +93,24 @@ impl CalibrationFile {
     /// # Errors
     /// When it is damaged, of another format, or its numbers cannot be, with the line.
     pub fn parse(text: &str) -> Result<Self> {
-        let table: Table = from_toml(text).map_err(|fault| {
-            let told = Fault::new(fault.what()).help(again());
-            match fault.line_number() {
-                Some(line) => told.line(line),
-                None => told,
-            }
-        })?;
+        let table: Table = from_toml(text).map_err(|fault| fault.help(again()))?;
         let line = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map_or(1, |l| l + 1);
         if table.format != FORMAT {
-            return Err(Fault::new(format!("format {} is not known to this version", table.format))
+            return Err(Fault::of(FileFault::Version, format!("format {} is not known to this version", table.format))
                 .line(line("format"))
                 .help(again()));
         }
         let n = table.points;
         if !(3..=MOST).contains(&n) {
-            return Err(Fault::new(format!("a shape cannot have {n} points")).line(line("points")).help(again()));
+            return Err(Fault::of(FileFault::OutOfRange, format!("a shape cannot have {n} points"))
+                .line(line("points"))
+                .help(again()));
         }
         let mut shapes = Vec::with_capacity(7);
         for emotion in Emotion::ALL {
             let head = format!("[shapes.{emotion}]");
             let Some(shape) = table.shapes.get(&emotion) else {
-                return Err(Fault::new(format!("the shape of {emotion} is missing"))
+                return Err(Fault::of(FileFault::Missing, format!("the shape of {emotion} is missing"))
                     .line(line("[shapes"))
                     .help(again()));
             };
@@ -158,9 +155,12 @@ impl CalibrationFile {
             }
         }
         if table.quality.shots.len() != 7 {
-            return Err(Fault::new("[quality] does not tell of seven shots").line(line("[quality]")).help(again()));
+            return Err(Fault::of(FileFault::Mismatch, "[quality] does not tell of seven shots")
+                .line(line("[quality]"))
+                .help(again()));
         }
-        let shapes: [Shape; 7] = shapes.try_into().map_err(|_| Fault::new("there are not seven shapes"))?;
+        let shapes: [Shape; 7] =
+            shapes.try_into().map_err(|_| Fault::of(FileFault::Empty, "there are not seven shapes"))?;
         let calibration = Calibration::new(shapes, Binding::of_rows(n, rows)).map_err(|f| f.line(line("[shapes")))?;
         Ok(Self { calibration, quality: table.quality, model: table.model, inputs: table.inputs })
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::inputs::Inputs;
 use super::marks::Marks;
 use crate::aam::{Annotation, Grey};
-use crate::disk::{Fault, Result, Task, inside, message, read_bytes, read_text};
+use crate::disk::{Fault, FileFault, Result, Task, inside, message, read_bytes, read_text};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P, How, Placed};
@@ -79,7 +79,7 @@ impl ShotFiles {
             files.photos[emotion.index()] = Some(path);
         }
         let Some(neutral) = &files.greys[0] else {
-            return Err(Fault::new("there is no neutral photo")
+            return Err(Fault::of(FileFault::Missing, "there is no neutral photo")
                 .at(folder)
                 .help("put neutral.png there: the face at rest, eyes open, mouth closed"));
         };
@@ -109,11 +109,9 @@ impl ShotFiles {
                 }
             }
             None if files.face.is_none() => {
-                return Err(Fault::new("the points of the neutral photo are not known").at(folder).help(message![
-                    "use ",
-                    Task::FindFace,
-                    ", which writes face.toml"
-                ]));
+                return Err(Fault::of(FileFault::Missing, "the points of the neutral photo are not known")
+                    .at(folder)
+                    .help(message!["use ", Task::FindFace, ", which writes face.toml"]));
             }
             None => {}
         }
@@ -165,7 +163,7 @@ impl ShotFiles {
         let text = read_text(path)?;
         self.note(path, text.as_bytes());
         let list = Annotation::parse(&text).map_err(|f| f.at(path))?;
-        let one = list.first().ok_or_else(|| Fault::new("it has no points").at(path))?;
+        let one = list.first().ok_or_else(|| Fault::of(FileFault::Missing, "it has no points").at(path))?;
         let placed = |at: Point| Placed { at, confidence: 1.0, how: How::Hand };
         Ok(one.in_pixels(size).into_iter().map(placed).collect())
     }
@@ -181,7 +179,7 @@ impl ShotFiles {
     /// # Errors
     /// As [`Inputs::foreign`] and [`Inputs::with`].
     pub fn inputs(&self) -> Result<Inputs<'_>> {
-        let missing = || Fault::new("there is no neutral photo");
+        let missing = || Fault::of(FileFault::Missing, "there is no neutral photo");
         let neutral = self.greys[0].as_ref().ok_or_else(missing)?;
         let mut inputs = match &self.face {
             Some(face) if self.are_own() => Inputs::own(neutral, &face.points),

@@ -1,7 +1,7 @@
 //! What a calibration is made of.
 
 use crate::aam::Grey;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint as P, How, Placed};
 use crate::geometry::Point;
@@ -51,7 +51,7 @@ impl<'a> Inputs<'a> {
         let at = |p: P| named.iter().find(|(n, _)| *n == p).map(|n| n.1);
         let pupils = match (at(P::P3_6), at(P::P3_5)) {
             (Some(left), Some(right)) => left.distance(right),
-            _ => return Err(Fault::new("the pupils of the neutral photo are not known").help(LOOK)),
+            _ => return Err(Fault::of(FileFault::Missing, "the pupils of the neutral photo are not known").help(LOOK)),
         };
         if pupils.is_nan() || pupils <= 1.0 || points.len() < 3 {
             return Err(Fault::new("the pupils of the neutral photo coincide").help(LOOK));
@@ -71,14 +71,17 @@ impl<'a> Inputs<'a> {
     pub fn with(mut self, emotion: Emotion, grey: &'a Grey, points: Vec<Placed>) -> Result<Self> {
         let n = self.shots[0].as_ref().map_or(0, |s| s.points.len());
         if !points.is_empty() && points.len() != n {
-            return Err(Fault::new(format!("the shot `{emotion}` has {} points, the neutral one {n}", points.len()))
-                .help("mark the same points in every shot"));
+            return Err(Fault::of(
+                FileFault::Mismatch,
+                format!("the shot `{emotion}` has {} points, the neutral one {n}", points.len()),
+            )
+            .help("mark the same points in every shot"));
         }
         if points.iter().any(|p| !(p.at.x.is_finite() && p.at.y.is_finite())) {
             return Err(Fault::new(format!("a point of the shot `{emotion}` is no place")).help("mark it again"));
         }
         if emotion == Emotion::Neutral {
-            return Err(Fault::new("there are two neutral shots").help("give one"));
+            return Err(Fault::of(FileFault::Duplicate, "there are two neutral shots").help("give one"));
         }
         self.shots[emotion.index()] = Some(ShotInput { grey, points });
         Ok(self)

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
-use crate::disk::{Commit, Fault, Message, Result, Task, message};
+use crate::disk::{Commit, Fault, FileFault, Message, Result, Task, message};
 use crate::photo::sha256;
 use crate::pose::Emotion;
 
@@ -52,11 +52,13 @@ impl Kept {
         let path = folder.join(MODEL);
         let again = message![Task::Calibrate, " makes it anew"];
         if !path.is_file() {
-            return Err(Fault::new("the model of this calibration is missing").at(&path).help(&again));
+            return Err(Fault::of(FileFault::Missing, "the model of this calibration is missing")
+                .at(&path)
+                .help(&again));
         }
         let model = Model::read(&path)?;
         if model.count() != calibration.binding().count() || sha256(&model.to_bytes()) != sum {
-            return Err(Fault::new("this model is of another calibration").at(&path).help(again));
+            return Err(Fault::of(FileFault::Mismatch, "this model is of another calibration").at(&path).help(again));
         }
         let made = Calibrated { calibration, model, quality, shots: Default::default() };
         Ok(Some(Self { made, inputs, marks: Vec::new() }))

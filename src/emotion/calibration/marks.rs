@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::disk::{Fault, Result, Task, from_toml, message};
+use crate::disk::{Fault, FileFault, Result, Task, from_toml, message};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint, Placed, PointRow};
 
@@ -47,7 +47,7 @@ impl Marks {
         let table: Table = from_toml(text)?;
         let line = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map_or(1, |l| l + 1);
         if table.format != FORMAT {
-            return Err(Fault::new(format!("format {} is not known to this version", table.format))
+            return Err(Fault::of(FileFault::Version, format!("format {} is not known to this version", table.format))
                 .line(line("format"))
                 .help(format!("this version reads format {FORMAT}")));
         }
@@ -62,7 +62,7 @@ impl Marks {
         for (name, row) in &table.points {
             let key = format!("\"{name}\"");
             if !FeaturePoint::named(name).is_some_and(|p| known.contains(&p)) {
-                return Err(Fault::new(format!("a shot has no point \"{name}\""))
+                return Err(Fault::of(FileFault::Unknown, format!("a shot has no point \"{name}\""))
                     .line(line(&key))
                     .help("a shot has the points of the face without ears and hair"));
             }
@@ -70,13 +70,12 @@ impl Marks {
         }
         let mut points = Vec::with_capacity(known.len());
         for p in known {
-            let row = table.points.get(&p.name()).ok_or_else(|| {
-                Fault::new(format!("[points] lacks \"{p}\"")).line(line("[points]")).help(message![
-                    "put it back, or move the file aside: ",
-                    Task::Calibrate,
-                    " writes it anew"
-                ])
-            })?;
+            let row =
+                table.points.get(&p.name()).ok_or_else(|| {
+                    Fault::of(FileFault::Missing, format!("[points] lacks \"{p}\""))
+                        .line(line("[points]"))
+                        .help(message!["put it back, or move the file aside: ", Task::Calibrate, " writes it anew"])
+                })?;
             points.push(row.placed(&p.name())?);
         }
         Ok(Self { points, photo: table.photo })

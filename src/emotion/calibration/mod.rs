@@ -27,7 +27,7 @@ pub use marks::Marks;
 pub use quality::{Quality, Retake, ShotQuality};
 
 use super::{Binding, Choice, Decomposition, Reading};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::face::FeaturePoint as P;
 use crate::geometry::{Point, Similarity};
 
@@ -74,7 +74,7 @@ impl Calibration {
     pub fn new(shapes: [Shape; 7], binding: Binding) -> Result<Self> {
         let neutral = &shapes[0].points;
         let (Some(left), Some(right)) = (binding.at(neutral, P::P3_6), binding.at(neutral, P::P3_5)) else {
-            return Err(Fault::new("the eyes of the neutral shape are not known"));
+            return Err(Fault::of(FileFault::Missing, "the eyes of the neutral shape are not known"));
         };
         let across = right - left;
         if across.hypot() < 1e-6 {
@@ -84,7 +84,8 @@ impl Calibration {
         let first: Vec<Point> = neutral.iter().map(|p| frame.undo(*p)).collect();
         let mut laid: [Vec<Point>; 7] = Default::default();
         for (to, shape) in laid.iter_mut().zip(&shapes) {
-            *to = over(&shape.points, &first).ok_or_else(|| Fault::new("a shape has no extent, or other points"))?;
+            *to = over(&shape.points, &first)
+                .ok_or_else(|| Fault::of(FileFault::Mismatch, "a shape has no extent, or other points"))?;
         }
         let decomposition = Decomposition::new(&laid)?;
         let apart = decomposition.clone();

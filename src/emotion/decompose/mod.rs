@@ -8,7 +8,7 @@ mod simplex;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 use crate::pose::{Emotion, Ratios};
 use simplex::nearest_mix;
@@ -61,10 +61,10 @@ impl Decomposition {
     pub fn new(shapes: &[Vec<Point>; 7]) -> Result<Self> {
         let n = shapes[0].len();
         if n == 0 || shapes.iter().any(|s| s.len() != n) {
-            return Err(Fault::new("the seven shapes have different numbers of points"));
+            return Err(Fault::of(FileFault::Mismatch, "the seven shapes have different numbers of points"));
         }
         if shapes.iter().flatten().any(|p| !p.is_finite()) {
-            return Err(Fault::new("a point of the seven shapes is no finite number"));
+            return Err(Fault::of(FileFault::Mismatch, "a point of the seven shapes is no finite number"));
         }
         let neutral = flat(&shapes[0]);
         let columns: Vec<_> = shapes[1..].iter().map(|s| flat(s) - &neutral).collect();
@@ -76,7 +76,7 @@ impl Decomposition {
         let svd = seen.clone().svd(true, true);
         let largest = svd.singular_values.max();
         if largest <= 1e-12 {
-            return Err(Fault::new("the seven shapes are all alike"));
+            return Err(Fault::of(FileFault::Mismatch, "the seven shapes are all alike"));
         }
         let mut singular = [0.0; 6];
         // A model of one or two points has fewer values than emotions; the others are 0.
@@ -85,7 +85,7 @@ impl Decomposition {
         }
         singular.sort_by(|a, b| b.total_cmp(a));
         let (Some(u), Some(vt)) = (&svd.u, &svd.v_t) else {
-            return Err(Fault::new("the seven shapes cannot be taken apart"));
+            return Err(Fault::of(FileFault::Mismatch, "the seven shapes cannot be taken apart"));
         };
         let mut shares = vt.transpose();
         for (mut column, value) in shares.column_iter_mut().zip(svd.singular_values.iter()) {
@@ -126,10 +126,10 @@ impl Decomposition {
     pub fn apart_from(&self, shapes: &[Vec<Point>], noise: f64) -> Result<Self> {
         let n = self.neutral.len() / 2;
         if !noise.is_finite() || noise <= 0.0 {
-            return Err(Fault::new("the noise of points must be above 0"));
+            return Err(Fault::of(FileFault::OutOfRange, "the noise of points must be above 0"));
         }
         if shapes.iter().any(|s| s.len() != n || s.iter().any(|p| !p.is_finite())) {
-            return Err(Fault::new("a shape to tell apart has other points than the seven"));
+            return Err(Fault::of(FileFault::Mismatch, "a shape to tell apart has other points than the seven"));
         }
         let metric = if shapes.is_empty() {
             Metric { apart: None, ..self.metric.clone() }
@@ -231,7 +231,8 @@ impl Apart {
     /// The root of the inverse of the noise's covariance `noise² 1 + D Dᵀ`, times the noise.
     fn new(movements: DMatrix<f64>, noise: f64) -> Result<Self> {
         let svd = movements.svd(true, false);
-        let directions = svd.u.ok_or_else(|| Fault::new("the shapes to tell apart cannot be taken apart"))?;
+        let directions =
+            svd.u.ok_or_else(|| Fault::of(FileFault::OutOfRange, "the shapes to tell apart cannot be taken apart"))?;
         let less = svd.singular_values.map(|s| 1.0 - 1.0 / (1.0 + (s / noise).powi(2)).sqrt());
         Ok(Self { directions, less })
     }

@@ -3,7 +3,7 @@
 use super::blendshapes::{is_known, plain};
 use super::csv;
 use super::frame::Seen;
-use crate::disk::{CsvTable, Fault, Result};
+use crate::disk::{CsvTable, Fault, FileFault, Result};
 use crate::pose::Head;
 
 /// Whether a CSV's heading is one of blendshapes.
@@ -52,7 +52,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
 /// Seconds from the first row.
 fn times(table: &CsvTable) -> Result<Vec<f64>> {
     let no_time = || {
-        Fault::new("the table of blendshapes has no time")
+        Fault::of(FileFault::Missing, "the table of blendshapes has no time")
             .line(1)
             .help("it needs a column `Timecode`, `timestamp` or `time`")
     };

@@ -1,6 +1,6 @@
 //! Tables of other programs: a heading, and rows of numbers of which some may be missing.
 
-use crate::disk::{CsvRow, CsvTable, Fault, Result};
+use crate::disk::{CsvRow, CsvTable, Fault, FileFault, Result};
 
 /// Reads a table whose rows are as wide as its heading. The last row may have been cut off while it was written, and is
 /// then left out.
@@ -13,7 +13,8 @@ pub(super) fn read(text: &str) -> Result<CsvTable> {
         return Err(Fault::new(what).line(row.line));
     }
     if table.rows.is_empty() {
-        return Err(Fault::new("the file has no rows").help("there is nothing to read: was it written to the end?"));
+        return Err(Fault::of(FileFault::Empty, "the file has no rows")
+            .help("there is nothing to read: was it written to the end?"));
     }
     Ok(table)
 }

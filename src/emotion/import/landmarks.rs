@@ -1,7 +1,7 @@
 //! From points of somebody else's tracker to ratios, through a person's calibration.
 
 use super::frame::{Seen, median, record};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::{Binding, Calibration, Choice, Decomposition, Record};
 use crate::face::FeaturePoint;
 use crate::geometry::{Point, Similarity, Vec2};
@@ -21,7 +21,7 @@ const ENOUGH: usize = 12;
 /// When the points are of a kind that is not known, or too few are common to both.
 pub(super) fn by_calibration(frames: &[Seen], calibration: &Calibration, notes: &mut Vec<String>) -> Result<Record> {
     let Some(count) = frames.iter().map(|f| f.points.len()).find(|n| *n > 0) else {
-        return Err(Fault::new("no frame has any points").help("was a face found in the video?"));
+        return Err(Fault::of(FileFault::Empty, "no frame has any points").help("was a face found in the video?"));
     };
     let mut frames = frames.to_vec();
     for frame in &mut frames {
@@ -52,7 +52,10 @@ pub(super) fn by_calibration(frames: &[Seen], calibration: &Calibration, notes: 
         .filter(|name| calibration.binding().at(&calibration.shapes()[0].points, *name).is_some())
         .collect();
     if names.len() < ENOUGH {
-        return Err(Fault::new(format!("the calibration and the file have only {} points in common", names.len())));
+        return Err(Fault::of(
+            FileFault::Mismatch,
+            format!("the calibration and the file have only {} points in common", names.len()),
+        ));
     }
     let pick = |binding: &Binding, shape: &[Point]| -> Vec<Point> {
         names.iter().filter_map(|n| binding.at(shape, *n)).collect()

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::arkit::in_seconds;
 use super::blendshapes::plain;
 use super::frame::Seen;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 use crate::pose::Head;
 
@@ -91,7 +91,8 @@ fn results(text: &str) -> Result<Vec<Value>> {
             }
             Ok(vec![whole])
         }
-        _ => Err(Fault::new("the file has no results").help("write what the face landmarker gives for each frame")),
+        _ => Err(Fault::of(FileFault::Empty, "the file has no results")
+            .help("write what the face landmarker gives for each frame")),
     }
 }
 

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use super::lpr::{Whole, is_lpr};
 use super::{Calibration, Record, Tracks};
-use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result, Setting, Task, message};
+use crate::disk::{self, Fault, FileFault, MAX_TEXT_BYTES, Result, Setting, Task, message};
 use frame::Seen;
 
 /// What a file of ratios is.
@@ -86,7 +86,7 @@ pub fn read_with(path: &Path, calibration: Option<&Calibration>) -> Result<(Reco
 /// As [`read_with`].
 pub fn parse(bytes: &[u8], calibration: Option<&Calibration>) -> Result<(Record, Option<Tracks>, Vec<String>)> {
     let Some(kind) = Kind::of(bytes) else {
-        return Err(Fault::new("this is no ratio record, nor a face tracker's file that is known").help(
+        return Err(Fault::of(FileFault::Unsupported, "this is no ratio record, nor a face tracker's file that is known").help(
             "known are ratios.csv, JSON of the same columns, .lpr, OpenFace CSV, mediapipe JSON, ARKit blendshapes as CSV",
         ));
     };
@@ -114,7 +114,9 @@ fn text_of(bytes: &[u8]) -> Result<String> {
         Ok(text) => Ok(disk::clean(text)),
         Err(error) => {
             let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-            Err(Fault::new("the file is not UTF-8 text").line(line).help("save it as UTF-8 and try again"))
+            Err(Fault::of(FileFault::Encoding, "the file is not UTF-8 text")
+                .line(line)
+                .help("save it as UTF-8 and try again"))
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::blendshapes::UNITS;
 use super::csv;
 use super::frame::Seen;
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::geometry::Point;
 use crate::pose::{Gaze, Head};
 
@@ -23,8 +23,11 @@ pub(super) fn is_header(names: &[String]) -> bool {
 /// Frames of one face: the first that the file names where there are several.
 pub(super) fn read(text: &str) -> Result<Vec<Seen>> {
     let table = csv::read(text)?;
-    let need =
-        |name: &str| table.column(name).ok_or_else(|| Fault::new(format!("the column `{name}` is missing")).line(1));
+    let need = |name: &str| {
+        table
+            .column(name)
+            .ok_or_else(|| Fault::of(FileFault::Missing, format!("the column `{name}` is missing")).line(1))
+    };
     let exact = |name: &str| table.names.iter().position(|n| *n == name);
     let (frame, time) = (need("frame")?, need("timestamp")?);
     let (sure, success, face) = (table.column("confidence"), table.column("success"), table.column("face_id"));

@@ -5,7 +5,7 @@ use std::io::{BufReader, ErrorKind, Read};
 use super::coder::Decoder;
 use super::frame::State;
 use super::{HEAD, MAGIC, MAX_FPS, MAX_FRAMES, MAX_PAYLOAD, Moment, VERSION};
-use crate::disk::{Fault, Result, Setting, Task, message};
+use crate::disk::{Fault, FileFault, Result, Setting, Task, message};
 
 /// Reads a compact record as it arrives: a frame is there as soon as its packet is.
 #[derive(Debug)]
@@ -44,10 +44,12 @@ impl<R: Read> LprReader<R> {
                 Task::Convert.with(Setting::Format, "lpr"),
                 " makes one"
             ];
-            return Err(Fault::new("this is no compact ratio record").help(help));
+            return Err(Fault::of(FileFault::Unsupported, "this is no compact ratio record").help(help));
         }
         if matches!(got, Got::End) {
-            return Err(Fault::new("the record is cut off in its head").help("record or copy it again"));
+            return Err(
+                Fault::of(FileFault::CutOff, "the record is cut off in its head").help("record or copy it again")
+            );
         }
         if head[4] != VERSION {
             let what = format!("the record has version {}, this program reads {VERSION}", head[4]);

@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::{LprReader, LprWriter, Moment};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::{Record, Tracks};
 
 /// Frames to a packet of a file.
@@ -45,9 +45,8 @@ impl Whole {
                     tracks.rows.extend(moment.track);
                 }
                 Ok(None) if whole.record.rows.is_empty() => {
-                    return Err(
-                        Fault::new("the record has no frames").help("there is nothing to read: was it recorded?")
-                    );
+                    return Err(Fault::of(FileFault::Empty, "the record has no frames")
+                        .help("there is nothing to read: was it recorded?"));
                 }
                 Ok(None) => break,
                 Err(fault) if whole.record.rows.is_empty() => return Err(fault),

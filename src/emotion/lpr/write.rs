@@ -5,7 +5,7 @@ use std::io::Write;
 use super::coder::Encoder;
 use super::frame::State;
 use super::{MAGIC, MAX_FPS, MAX_FRAMES, MAX_PAYLOAD, Moment, VERSION};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// A frame never takes more bytes than this, so that a payload is closed in time.
 const FRAME_ROOM: usize = 1024;
@@ -32,9 +32,8 @@ impl<W: Write> LprWriter<W> {
     /// When it cannot be written, or `fps` is not above 0 and at most 10,000.
     pub fn new(mut out: W, fps: f64, with_tracks: bool) -> Result<Self> {
         if !fps.is_finite() || fps <= 0.0 || fps > MAX_FPS {
-            return Err(
-                Fault::new(format!("a record cannot have {fps} frames a second")).help("give a number from 1 to 240")
-            );
+            return Err(Fault::of(FileFault::OutOfRange, format!("a record cannot have {fps} frames a second"))
+                .help("give a number from 1 to 240"));
         }
         let mut head = MAGIC.to_vec();
         head.extend([VERSION, u8::from(with_tracks)]);

@@ -5,6 +5,7 @@ use std::io::{Error, ErrorKind};
 use std::sync::atomic::AtomicBool;
 
 use crate::disk::{Fault, Messages, Pipe, Result, Running, Setting, message};
+use crate::export::ExportFault;
 use crate::track::Ffmpeg;
 
 /// A running encoder; killed when dropped.
@@ -25,9 +26,10 @@ fn start(arguments: impl IntoIterator<Item = OsString>, pipe: Pipe) -> Result<Ru
 
 fn not_started(error: &Error) -> Fault {
     match error.kind() {
-        ErrorKind::NotFound => Fault::new("video needs the program `ffmpeg`, which is not here")
+        ErrorKind::NotFound => Fault::of(ExportFault::Encoder, "video needs the program `ffmpeg`, which is not here")
             .help("install it (Debian: apt install ffmpeg), or export gif, apng or png, which need none"),
-        _ => Fault::new(format!("`ffmpeg` cannot be started: {error}")).help("does `ffmpeg -version` work?"),
+        _ => Fault::of(ExportFault::Encoder, format!("`ffmpeg` cannot be started: {error}"))
+            .help("does `ffmpeg -version` work?"),
     }
 }
 
@@ -58,7 +60,7 @@ fn stopped(messages: &Messages, otherwise: &str) -> Fault {
     let mut lines = messages.lines();
     lines.truncate(3);
     let what = if lines.is_empty() { otherwise.to_owned() } else { lines.join("; ") };
-    let fault = Fault::new(format!("`ffmpeg` stopped: {what}"));
+    let fault = Fault::of(ExportFault::Encoder, format!("`ffmpeg` stopped: {what}"));
     if messages.text().contains("Unknown encoder") {
         return fault.help("this ffmpeg was built without it: install a full one, or export another format");
     }

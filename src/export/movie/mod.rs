@@ -19,6 +19,7 @@ use super::cels::{Area, changed, pixels};
 use super::draft::{beside, write_fault};
 use super::stream::{Frames, Outcome, Rate, Watch};
 use crate::disk::{Fault, Result, clean_line, put_whole};
+use crate::export::ExportFault;
 use crate::speech::Sound;
 use crate::timing::{self, Tier, Timing};
 use crate::track::Ffmpeg;
@@ -64,7 +65,8 @@ pub fn write(
     let rate = Rate::new(film.fps)?;
     let (size, count) = (frames.size(), frames.count());
     if count == 0 || size.contains(&0) {
-        return Err(Fault::new("there are no frames to be shown").help("give the clip a recording, times or keys"));
+        return Err(Fault::of(ExportFault::NoFrames, "there are no frames to be shown")
+            .help("give the clip a recording, times or keys"));
     }
     let alpha = film.transparent && container == Container::WebM;
     let mut planes = Planes::new(size, container == Container::Mp4, alpha);

@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 use super::Written;
 use crate::disk::{Fault, Result, Setting, message};
 use crate::drawing::{Colour, Picture};
+use crate::export::ExportFault;
 use crate::export::apng::{self, ApngForm, Depth};
 use crate::export::gif::{self, GifForm};
 use crate::export::manifest::hex;
@@ -33,7 +34,11 @@ impl Frames for Painted<'_> {
     }
 
     fn show(&mut self, n: u32) -> Result<(Range<u32>, Range<u32>)> {
-        let frame = self.job.frames.get(n as usize).ok_or_else(|| Fault::new("there is no such frame"))?;
+        let frame = self
+            .job
+            .frames
+            .get(n as usize)
+            .ok_or_else(|| Fault::of(ExportFault::NoSuchFrame, "there is no such frame"))?;
         Ok(self.reel.show(&self.job.drawing(*frame)))
     }
 

@@ -5,6 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use crate::disk::{Fault, Pipe, Result, read_old, replace};
+use crate::export::ExportFault;
 use crate::speech::{Sound, write_wav};
 use crate::track::Ffmpeg;
 
@@ -49,7 +50,7 @@ pub(super) fn own(path: &Path) -> Option<Encoded> {
 pub(super) fn wav(sound: &Sound) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::with_capacity(44 + 2 * sound.samples.len()));
     write_wav(&mut bytes, sound.rate, [whole(sound).collect::<Vec<_>>()])
-        .map_err(|e| Fault::new(format!("the sound cannot be written as WAV: {e}")))?;
+        .map_err(|e| Fault::of(ExportFault::CannotWrite, format!("the sound cannot be written as WAV: {e}")))?;
     Ok(bytes.into_inner())
 }
 
@@ -89,7 +90,7 @@ fn mp3(sound: &Sound, encoder: &Ffmpeg) -> Result<Vec<u8>> {
     let ended = running.and_then(|mut running| running.ended());
     let ended = ended.map_err(|e| Fault::io("cannot run it", encoder.path(), e))?;
     let why = ended.messages.lines().into_iter().next().unwrap_or_else(|| ended.status.to_string());
-    let failed = || Fault::new(format!("ffmpeg failed: {why}"));
+    let failed = || Fault::of(ExportFault::Encoder, format!("ffmpeg failed: {why}"));
     if !ended.status.success() {
         return Err(failed());
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::disk::{Message, Setting, message};
+use crate::disk::{FaultKind, Message, Setting, message};
 
 /// Why no face is given for a photo.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +21,8 @@ pub enum Refusal {
     /// Something lies there, but the points do not sit on it as they do on a face.
     Unclear,
 }
+
+impl FaultKind for Refusal {}
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -5,7 +5,7 @@
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 
 use super::Chosen;
-use crate::disk::{Fault, Result, clean_line, from_toml, suggestion};
+use crate::disk::{Fault, FileFault, Result, clean_line, from_toml, suggestion};
 use crate::drawing::Colour;
 use crate::face::HairKind;
 use crate::face::rig::Proportions;
@@ -162,7 +162,7 @@ impl Style {
             "ink" => Ok(include_str!("styles/ink.toml")),
             _ => {
                 let near = suggestion(name, "styles", &Self::BUILT_IN);
-                Err(Fault::new(format!("there is no style `{name}`"))
+                Err(Fault::of(FileFault::Unknown, format!("there is no style `{name}`"))
                     .help(format!("{near}, or a file styles/NAME.toml")))
             }
         }
@@ -183,7 +183,10 @@ impl Style {
             None => fault,
         };
         if file.format != STYLE_FORMAT {
-            let fault = Fault::new(format!("format {} of a style is not known to this version", file.format));
+            let fault = Fault::of(
+                FileFault::Version,
+                format!("format {} of a style is not known to this version", file.format),
+            );
             return Err(at_line(fault, "format").help(format!("this version reads format {STYLE_FORMAT}")));
         }
         let p = &file.proportions;

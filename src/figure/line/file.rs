@@ -34,7 +34,7 @@ use serde::Deserialize;
 use super::eye::Eye;
 use super::mouth::Mouth;
 use super::{Backdrop, Colours, Fill, Line, LineFigure, Widths};
-use crate::disk::{Fault, Result, from_toml, plain_name, suggestion};
+use crate::disk::{Fault, FileFault, Result, from_toml, plain_name, suggestion};
 use crate::drawing::Colour;
 use crate::geometry::{Knot, Point, Rect, Ribbon};
 use crate::pose::Emotion;
@@ -148,7 +148,7 @@ impl LineFigure {
     pub fn parse(text: &str) -> Result<Self> {
         let file: File = from_toml(text)?;
         if file.format != FIGURE_FORMAT {
-            return Err(Fault::new(format!("`format` is {}", file.format))
+            return Err(Fault::of(FileFault::Version, format!("`format` is {}", file.format))
                 .help(format!("this program reads figures of format {FIGURE_FORMAT}")));
         }
         let d = file.drawings;
@@ -174,7 +174,8 @@ impl LineFigure {
             }
         }
         if let Some([x, y]) = file.pivot.filter(|p| p.iter().any(|v| !v.is_finite() || v.abs() > FARTHEST)) {
-            return Err(Fault::new(format!("`pivot` is [{x}, {y}]")).help(format!("give numbers up to {FARTHEST}")));
+            return Err(Fault::of(FileFault::OutOfRange, format!("`pivot` is [{x}, {y}]"))
+                .help(format!("give numbers up to {FARTHEST}")));
         }
         if file.mouth.upper.is_empty() || file.mouth.lower.is_empty() {
             return Err(
@@ -184,7 +185,8 @@ impl LineFigure {
         let view = area(file.view, "view")?;
         let close = file.close.map_or(Ok(view), |close| area(close, "close"))?;
         if !(file.pen > 0.0 && file.pen <= 100.0) {
-            return Err(Fault::new(format!("`pen` is {}", file.pen)).help("give a number above 0 and at most 100"));
+            return Err(Fault::of(FileFault::OutOfRange, format!("`pen` is {}", file.pen))
+                .help("give a number above 0 and at most 100"));
         }
         let names = Self::index_of_lines(&lines);
         let line = |name: &String| {
@@ -236,7 +238,7 @@ fn area([x, y, width, height]: [f64; 4], name: &str) -> Result<Rect> {
     if near && width > 0.0 && height > 0.0 {
         return Ok(Rect::new(x, y, x + width, y + height));
     }
-    Err(Fault::new(format!("`{name}` is [{x}, {y}, {width}, {height}]"))
+    Err(Fault::of(FileFault::OutOfRange, format!("`{name}` is [{x}, {y}, {width}, {height}]"))
         .help(format!("give x, y, width and height, up to {FARTHEST}, the last two above 0")))
 }
 
@@ -246,7 +248,7 @@ fn knots(list: &Triples, of: &str) -> Result<Vec<Knot>> {
         .map(|(i, [x, y, w])| {
             let fine = [x, y, w].iter().all(|v| v.is_finite() && v.abs() <= FARTHEST) && *w >= 0.0;
             fine.then_some(Knot::new(*x, *y, *w)).ok_or_else(|| {
-                Fault::new(format!("point {i} of `{of}` is [{x}, {y}, {w}]"))
+                Fault::of(FileFault::OutOfRange, format!("point {i} of `{of}` is [{x}, {y}, {w}]"))
                     .help(format!("give numbers up to {FARTHEST}, the width not below 0"))
             })
         })

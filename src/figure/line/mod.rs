@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub use file::FIGURE_FORMAT;
 pub use widths::Widths;
 
-use crate::disk::{Fault, Result, suggestion};
+use crate::disk::{Fault, FileFault, Result, suggestion};
 use crate::drawing::{Colour, Item};
 use crate::geometry::{Knot, Rect, Ribbon};
 use crate::pose::Ratios;
@@ -111,7 +111,7 @@ impl LineFigure {
             "cat" => Self::parse(include_str!("cat.toml")),
             _ => {
                 let near = suggestion(name, "figures", &Self::BUILT_IN);
-                Err(Fault::new(format!("there is no figure `{name}`"))
+                Err(Fault::of(FileFault::Unknown, format!("there is no figure `{name}`"))
                     .help(format!("{near}, or a file figures/NAME.toml")))
             }
         }

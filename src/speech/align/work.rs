@@ -11,6 +11,7 @@ use super::sections::sections;
 use super::units::{ANY, SILENCE, Unit};
 use super::{outcome, voice};
 use crate::disk::{Fault, Result};
+use crate::speech::SpeechFault;
 use crate::speech::{Alignment, Note, Pin, Take};
 
 /// How much the sound counts: frames overlap and follow each other, and say much the same.
@@ -89,21 +90,23 @@ impl Work {
         let chain = Chain::of(take.script);
         let count = chain.syllables.len();
         if count == 0 {
-            return Err(Fault::new("the script has no syllables").help("write down what is said in the recording"));
+            return Err(Fault::of(SpeechFault::NoScript, "the script has no syllables")
+                .help("write down what is said in the recording"));
         }
         let duration = take.sound.duration();
         let quality = take.sound.quality();
         let least = SHORTEST * count as f64;
         if duration < least {
-            return Err(Fault::new(format!(
-                "the recording is {duration:.2} s long, too short for the {count} syllables of its script"
-            ))
+            return Err(Fault::of(
+                SpeechFault::TooShort,
+                format!("the recording is {duration:.2} s long, too short for the {count} syllables of its script"),
+            )
             .help("check that this is its script, and that the recording is whole"));
         }
         let samples: Cow<'_, [f32]> = take.sound.resampled(features::RATE);
         let heard = Features::of(&samples);
         if heard.voice < FAINTEST || heard.snr < FLATTEST || heard.sounding() < SHORTEST {
-            return Err(Fault::new("there is no voice in the recording")
+            return Err(Fault::of(SpeechFault::NoVoice, "there is no voice in the recording")
                 .help("listen to it; check the microphone and its level"));
         }
         let usual = chain.usual(0..chain.links.len());

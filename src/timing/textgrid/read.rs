@@ -5,7 +5,7 @@ use super::super::Timing;
 use super::super::layer::{Layer, checked};
 use super::chronological;
 use super::tokens::{Kind, Token, is_chronological, tokens};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// The words that say which value follows, in the long form.
 const KEYS: [&str; 9] = ["xmin", "xmax", "size", "class", "name", "text", "number", "time", "mark"];
@@ -159,7 +159,7 @@ impl Reader {
                 _ => return Ok((kind, line)),
             }
         }
-        Err(Fault::new(format!("the file ends where {what} is expected"))
+        Err(Fault::of(FileFault::CutOff, format!("the file ends where {what} is expected"))
             .line(self.last_line)
             .help("was it cut off? take it from its source again"))
     }
@@ -198,7 +198,7 @@ fn unexpected(found: &Kind, what: &str, line: usize) -> Fault {
 fn enough(there: usize, said: Option<(f64, usize)>, what: &str, of: &str) -> Result<()> {
     match said {
         Some((said, line)) if (there as f64) < said => {
-            Err(Fault::new(format!("{of} says that it has {said} {what}, and {there} are there"))
+            Err(Fault::of(FileFault::Mismatch, format!("{of} says that it has {said} {what}, and {there} are there"))
                 .line(line)
                 .help(format!("was the file cut off? if nothing is missing, write {there} here")))
         }

@@ -1,6 +1,6 @@
 //! The pieces of a TextGrid: numbers, texts in quotes, flags, and the words between them.
 
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// One piece and the line on which it begins.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,9 +98,12 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>> {
                             label.push(c);
                         }
                         None => {
-                            return Err(Fault::new(format!("the file ends inside the text `{}`", shortened(&label)))
-                                .line(began)
-                                .help("the quote opened here is never closed; was the file cut off?"));
+                            return Err(Fault::of(
+                                FileFault::CutOff,
+                                format!("the file ends inside the text `{}`", shortened(&label)),
+                            )
+                            .line(began)
+                            .help("the quote opened here is never closed; was the file cut off?"));
                         }
                     }
                 }

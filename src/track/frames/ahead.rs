@@ -8,7 +8,7 @@ use crossbeam_channel::{Receiver, bounded};
 
 use super::ffmpeg::Reading;
 use super::{Frame, folder};
-use crate::disk::{Fault, Result};
+use crate::disk::{Fault, FileFault, Result};
 
 /// The frames of a video, one after the other.
 #[derive(Debug)]
@@ -55,10 +55,10 @@ impl Frames {
             let first = *size.get_or_insert(own);
             if own != first {
                 let [w, h] = first;
-                return Err(Fault::new(format!(
-                    "frame {number} has {} × {} pixels, the first {w} × {h}",
-                    own[0], own[1]
-                ))
+                return Err(Fault::of(
+                    FileFault::Mismatch,
+                    format!("frame {number} has {} × {} pixels, the first {w} × {h}", own[0], own[1]),
+                )
                 .at(path)
                 .help("frames of one video have one size; take other pictures out of the folder"));
             }

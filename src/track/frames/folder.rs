@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Coded, Frame};
 use crate::aam::Grey;
-use crate::disk::{Fault, Result, list, read_bytes};
+use crate::disk::{Fault, FileFault, Result, list, read_bytes};
 use crate::photo::MAX_PHOTO_BYTES;
 
 /// Endings of the pictures that are frames.
@@ -24,17 +24,19 @@ pub(super) fn pictures(folder: &Path) -> Result<Vec<PathBuf>> {
             continue;
         }
         if path.is_symlink() {
-            return Err(Fault::new("a frame is a link")
+            return Err(Fault::of(FileFault::Outside, "a frame is a link")
                 .at(folder.join(&name))
                 .help("copy the picture itself into the folder: nothing outside it is opened"));
         }
         if names.len() == MOST {
-            return Err(Fault::new(format!("there are more than {MOST} frames")).at(folder).help("cut it into clips"));
+            return Err(Fault::of(FileFault::TooLarge, format!("there are more than {MOST} frames"))
+                .at(folder)
+                .help("cut it into clips"));
         }
         names.push(name);
     }
     if names.is_empty() {
-        return Err(Fault::new("there are no frames in it")
+        return Err(Fault::of(FileFault::Empty, "there are no frames in it")
             .at(folder)
             .help("put the video's frames there as PNG, JPEG or WebP, numbered: 0000.jpg, 0001.jpg"));
     }

@@ -10,8 +10,9 @@ use image::ImageReader;
 use super::ffmpeg::{Ffmpeg, duration_said};
 use super::y4m::{MAGIC, Scan, Y4m};
 use super::{Frames, MOST_FPS, folder, print};
-use crate::disk::{Fault, Result, open};
+use crate::disk::{Fault, FileFault, Result, open};
 use crate::photo::Photo;
+use crate::track::TrackFault;
 
 /// A video that can be read.
 #[derive(Debug, Clone)]
@@ -59,14 +60,15 @@ impl Source {
             return Err(Fault::new("it is a list of other videos").at(path).help("give the video itself"));
         }
         if magic.is_empty() {
-            return Err(Fault::new("the video's file is empty").at(path).help("copy it again"));
+            return Err(Fault::of(FileFault::Empty, "the video's file is empty").at(path).help("copy it again"));
         }
         Self::of_video(path, Ffmpeg::find().map_err(|fault| fault.at(path))?)
     }
 
     fn of_folder(path: &Path, fps: f64) -> Result<Self> {
         if !(0.1..=MOST_FPS).contains(&fps) {
-            return Err(Fault::new(format!("frames cannot be shown {fps} a second")).help("give 0.1 to 1000"));
+            return Err(Fault::of(FileFault::OutOfRange, format!("frames cannot be shown {fps} a second"))
+                .help("give 0.1 to 1000"));
         }
         let paths: Arc<[PathBuf]> = folder::pictures(path)?.into();
         let count = paths.len();
@@ -189,7 +191,7 @@ impl Source {
     pub fn frame(&self, number: u32) -> Result<Photo> {
         let none = || {
             let there = self.count.map_or(String::new(), |n| format!(": there are {n}, counted from 0"));
-            Fault::new(format!("there is no frame {number}{there}")).at(self.path())
+            Fault::of(TrackFault::NoSuchFrame, format!("there is no frame {number}{there}")).at(self.path())
         };
         match &self.kind {
             Kind::Pictures(_, paths) => Photo::read(paths.get(number as usize).ok_or_else(none)?),

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use super::{Coded, Frame, MOST_FPS};
 use crate::aam::Grey;
-use crate::disk::{Fault, Result, clean_line};
+use crate::disk::{Fault, FileFault, Result, clean_line};
 use crate::photo::Photo;
 
 /// The magic word that a stream begins with.
@@ -64,7 +64,8 @@ impl<R: Read> Y4m<R> {
         let mut magic = [0; MAGIC.len()];
         let got = fill(&mut input, &mut magic)?;
         if got == 0 {
-            return Err(Fault::new("there is no video: the stream is empty").help("does what writes it say why?"));
+            return Err(Fault::of(FileFault::Empty, "there is no video: the stream is empty")
+                .help("does what writes it say why?"));
         }
         if magic[..got] != *MAGIC {
             return Err(Fault::new("this is no YUV4MPEG2 stream")
@@ -111,10 +112,8 @@ impl<R: Read> Y4m<R> {
     /// When the stream is cut within a frame or is damaged, with the frame's number.
     pub fn next_frame(&mut self) -> Result<Option<Frame>> {
         let number = self.next;
-        let of_frame = |fault: Fault| {
-            let what = format!("frame {number}: {}", fault.what());
-            Fault::new(what).help("what comes before it is whole")
-        };
+        let of_frame =
+            |fault: Fault| fault.in_part(format_args!("frame {number}")).help("what comes before it is whole");
         let Some(word) = line(&mut self.input).map_err(of_frame)? else { return Ok(None) };
         if word != "FRAME" && !word.starts_with("FRAME ") {
             return Err(of_frame(damaged("no frame begins where one should")));
@@ -122,7 +121,7 @@ impl<R: Read> Y4m<R> {
         let size = self.head.bytes();
         let mut planes = Vec::new();
         let read = (&mut self.input).take(size as u64).read_to_end(&mut planes);
-        read.map_err(|e| of_frame(Fault::new(format!("it cannot be read: {e}"))))?;
+        read.map_err(|e| of_frame(Fault::of(FileFault::OutOfRange, format!("it cannot be read: {e}"))))?;
         if planes.len() < size {
             let what = format!("it is cut: {} of {size} bytes are there", planes.len());
             return Err(of_frame(Fault::new(what)));
@@ -278,7 +277,7 @@ fn fill(input: &mut impl Read, buffer: &mut [u8]) -> Result<usize> {
             Ok(0) => break,
             Ok(n) => got += n,
             Err(e) if e.kind() == std::io::ErrorKind::Interrupted => {}
-            Err(e) => return Err(Fault::new(format!("the video cannot be read: {e}"))),
+            Err(e) => return Err(Fault::of(FileFault::OutOfRange, format!("the video cannot be read: {e}"))),
         }
     }
     Ok(got)

@@ -18,6 +18,7 @@ use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P};
 use crate::geometry::{Point, Similarity, Vec2};
 use crate::pose::Ratios;
+use crate::track::TrackFault;
 use eyes::Eyes;
 use mouth::{Mouth, matched};
 
@@ -54,7 +55,9 @@ pub fn by_regions(
         }
     }
     let Some(rest) = Rest::of(&instants) else {
-        return Err(Fault::new("no face is found in the video").at(source.path()).help("is it seen from the front?"));
+        return Err(Fault::of(TrackFault::NoFace, "no face is found in the video")
+            .at(source.path())
+            .help("is it seen from the front?"));
     };
     let mut tracked = gathered(&instants, &rest);
     tracked.notes.extend(source.notes().iter().map(|n| n.as_str().into()));
