@@ -190,4 +190,14 @@ fn an_export_sets_aside_what_is_of_no_export() {
     fs::remove_file(out.join("manifest.json")).unwrap();
     let output = run();
     assert!(output.status.success() && !said(&output).contains('~'), "{}", said(&output));
+    // What was kept before is not lost to what is kept now.
+    for name in ["nihao.srt", "nihao/000003.png"] {
+        fs::write(out.join(name), "theirs again").unwrap();
+    }
+    let output = run();
+    assert!(said(&output).contains("kept as nihao.srt~2"), "{}", said(&output));
+    for name in ["nihao.srt", "nihao/000003.png"] {
+        assert_eq!(fs::read_to_string(out.join(format!("{name}~"))).unwrap(), "theirs", "{name}");
+        assert_eq!(fs::read_to_string(out.join(format!("{name}~2"))).unwrap(), "theirs again", "{name}");
+    }
 }

@@ -56,7 +56,7 @@ impl Ledger {
     }
 
     /// Before a file is written anew: where no earlier export wrote what is there, or somebody has changed it since, that is
-    /// renamed to the same name with a `~`. Returns a note for the author. `new` is what will be written, where it is known.
+    /// renamed to the same name with a `~` that no other file has. Returns a note for the author. `new` is what will be written, where it is known.
     pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<Option<Message>> {
         let name = within(&self.folder, path);
         let parts = parts_in(&self.folder).unwrap_or_default();
@@ -73,12 +73,12 @@ impl Ledger {
                 return Ok(None);
             }
         }
-        put_aside(path)?;
+        let aside = put_aside(path)?;
         let note = match wrote.is_empty() {
-            false => {
-                format!("{name} was changed since it was exported; that is kept as {name}~, and it is written anew")
-            }
-            true => format!("{name} was there and is of no export; it is kept as {name}~"),
+            false => format!(
+                "{name} was changed since it was exported; that is kept as {name}{aside}, and it is written anew"
+            ),
+            true => format!("{name} was there and is of no export; it is kept as {name}{aside}"),
         };
         Ok(Some(note.into()))
     }
@@ -91,8 +91,8 @@ impl Ledger {
         if !is_there || Manifest::read(&path).is_ok() {
             return Ok(None);
         }
-        put_aside(&path)?;
-        Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}~").into()))
+        let aside = put_aside(&path)?;
+        Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}{aside}").into()))
     }
 
     /// Notes a file that was made from what `key` tells.
@@ -172,11 +172,20 @@ impl Ledger {
     }
 }
 
-/// Renames a file to its name with a `~`.
-pub(super) fn put_aside(path: &Path) -> Result<()> {
-    let mut aside = path.as_os_str().to_owned();
-    aside.push("~");
-    disk::rename(path, Path::new(&aside)).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))
+/// Renames a file to its name with a `~`, or with `~2` and so on where an earlier one has that. Returns what was added.
+pub(super) fn put_aside(path: &Path) -> Result<String> {
+    let with = |ending: &str| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(ending);
+        PathBuf::from(name)
+    };
+    let (mut ending, mut number) = ("~".to_owned(), 1);
+    while with(&ending).symlink_metadata().is_ok() {
+        number += 1;
+        ending = format!("~{number}");
+    }
+    let renamed = disk::rename(path, &with(&ending));
+    renamed.map(|()| ending).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))
 }
 
 /// Manifests of parts that this one makes void: those of another division where this is a part, and those whose every file
