@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::{Fault, Result, door, settle, temporary_in};
+use super::{Fault, FileFault, Result, door, settle, temporary_in};
 
 /// Puts `bytes` at `path`, making its folder where it is missing: a temporary file beside it, flush, fsync, rename,
 /// fsync of the folder. A reader sees the old file or the new one, and a crash leaves one of the two.
@@ -79,6 +79,9 @@ pub fn write_output(path: &Path, bytes: &[u8]) -> Result<()> {
         Ok(there) if !there.is_file() && !there.is_dir() => {
             let stream = fs::OpenOptions::new().write(true).open(path);
             into(Box::new(stream.map_err(|e| Fault::io("cannot open it", path, e))?))
+        }
+        Ok(there) if there.is_dir() => {
+            Err(Fault::of(FileFault::Mismatch, "it is a folder").at(path).help("name a file in it"))
         }
         _ => write_whole(&followed(path), bytes),
     }
