@@ -10,6 +10,7 @@ pub mod pose;
 pub mod drawing;
 pub mod disk;
 pub mod photo;
+pub mod media;
 pub mod face;
 pub mod aam;
 pub mod emotion;

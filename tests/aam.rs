@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lianpu::aam::annotation::{Format, Unit};
-use lianpu::aam::{Annotation, Fit, Fitter, Grey, Kind, Model, Options, Start, triangles};
+use lianpu::aam::{Annotation, Fit, Fitter, Kind, Model, Options, Start, triangles};
 use lianpu::geometry::{Point, Vec2};
+use lianpu::photo::Grey;
 use proptest::prelude::*;
 
 mod chance;

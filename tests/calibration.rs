@@ -5,11 +5,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use lianpu::aam::{Annotation, Grey};
+use lianpu::aam::Annotation;
 use lianpu::emotion::{Binding, Calibrated, CalibrationFile, Choice, Inputs, Marks, ShotFiles, Source, calibrate};
 use lianpu::face::find::find;
 use lianpu::face::{FeaturePoint as P, How, Part, Placed};
 use lianpu::geometry::Point;
+use lianpu::photo::Grey;
 use lianpu::pose::Emotion;
 
 mod test_data;

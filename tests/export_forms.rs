@@ -286,7 +286,7 @@ fn times_and_shapes_are_read_back_as_they_were_written() {
     assert_eq!(labels("rhubarb.xml"), said);
     assert_eq!(labels("rhubarb.json"), said);
     assert!(!labels("dat").is_empty());
-    let (old, new) = (lesson.clips[0].sound.as_ref().unwrap(), lianpu::speech::Sound::read(&at("wav")).unwrap());
+    let (old, new) = (lesson.clips[0].sound.as_ref().unwrap(), lianpu::media::Sound::read(&at("wav")).unwrap());
     assert_eq!((old.rate, &old.samples), (new.rate, &new.samples), "the sound is the recording's");
     let table = text(folder.path().join("moods.ratios.csv"));
     assert_eq!(lianpu::emotion::Record::parse(&table).unwrap().rows.len(), 20);

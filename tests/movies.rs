@@ -16,7 +16,7 @@ use lianpu::drawing::Colour;
 use lianpu::drawing::Picture;
 use lianpu::export::movie::{self, Container, Film};
 use lianpu::export::{Frames, Outcome, Watch, apng, gif};
-use lianpu::speech::Sound;
+use lianpu::media::Sound;
 use lianpu::timing::{Interval, Tier};
 
 /// A disc with soft edges that wanders over a field, stands still now and then, and at `flashes` fills everything.

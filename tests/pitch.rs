@@ -8,7 +8,8 @@ mod test_data;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use lianpu::speech::{Pitch, Sound, pitch};
+use lianpu::media::Sound;
+use lianpu::speech::{Pitch, pitch};
 
 /// Semitones above the middle of a voice, from the start to the end of a syllable: the four tones in Chao's five levels
 /// (55, 35, 214, 51), a level for 2.5 semitones.

@@ -5,12 +5,14 @@
 
 use std::path::{Path, PathBuf};
 
-use lianpu::aam::{Fitter, Grey, Kind, Model, Options, Start};
+use lianpu::aam::{Fitter, Kind, Model, Options, Start};
 use lianpu::emotion::{self, Binding, Calibration, Choice, Kept, Record, Shape};
 use lianpu::face::FeaturePoint;
 use lianpu::geometry::{Point, Vec2};
+use lianpu::media::Source;
+use lianpu::photo::Grey;
 use lianpu::pose::{Emotion, Ratios};
-use lianpu::track::{Source, by_aam};
+use lianpu::track::by_aam;
 
 mod chance;
 

@@ -4,13 +4,14 @@
 
 use std::path::Path;
 
-use lianpu::aam::{Annotation, Fit, Fitter, Grey, Kind, Model, Options, Start};
+use lianpu::aam::{Annotation, Fit, Fitter, Kind, Model, Options, Start};
 use lianpu::emotion::{
     Binding, Calibration, Choice, LprReader, LprWriter, Moment, MouthMoves, Record, Row, Shape, Source, TrackRow,
     Tracks, Whole, to_lpr,
 };
 use lianpu::face::FeaturePoint as P;
 use lianpu::geometry::Point;
+use lianpu::photo::Grey;
 use lianpu::pose::{Gaze, Head, Lids, Ratios};
 use proptest::prelude::*;
 

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 use lianpu::disk::Fault;
-use lianpu::speech::Sound;
+use lianpu::media::Sound;
 
 /// A WAV of one second of a tone at half the full loudness, the same in all channels.
 fn tone(channels: u16, rate: u32, bits: u16, float: bool) -> Vec<u8> {

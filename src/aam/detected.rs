@@ -4,11 +4,11 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::grey::Grey;
 use super::shape::Shapes;
 use crate::face::find::{Found, find};
 use crate::face::{FeaturePoint as P, Placed};
 use crate::geometry::{Point, Similarity};
+use crate::photo::Grey;
 
 /// How a pose and a place along the modes follow from detected points. Rows: the four numbers of the pose in the frame of
 /// the pupils, then the modes; columns: a constant, then all x and all y of the points in that frame, about their mean.

@@ -198,8 +198,9 @@ impl Left<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::aam::{Grey, Kind, Options, Start};
+    use crate::aam::{Kind, Options, Start};
     use crate::geometry::Point;
+    use crate::photo::Grey;
 
     /// Three pictures of a blob with a cross of points on it.
     fn model() -> (Model, Grey, Vec<Point>) {

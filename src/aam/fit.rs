@@ -1,6 +1,5 @@
 //! The fit: from a start to the shape, coarse to fine.
 
-use super::grey::Grey;
 use super::ground::Ground;
 use super::level::Level;
 use super::model::Model;
@@ -9,6 +8,7 @@ use super::simultaneous;
 use super::steady::steadied;
 use super::sums::{products, square};
 use crate::geometry::{Point, Rect, Similarity};
+use crate::photo::Grey;
 
 /// Where a fit begins.
 #[derive(Debug, Clone, Copy)]

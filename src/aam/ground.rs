@@ -1,8 +1,8 @@
 //! The part of a picture that a fit looks at: halved until its pixels are about as large as the model's, smoothed, and
 //! laid out so that four neighbours are read at once.
 
-use super::grey::{Grey, halve};
 use crate::geometry::Rect;
+use crate::photo::{Grey, halve};
 
 /// A part of a picture. A place in it is counted in its own pixels, whose centres are whole numbers.
 #[derive(Debug, Clone, Default)]

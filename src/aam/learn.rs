@@ -4,7 +4,6 @@ use super::appearance::textures;
 use super::detected::Detected;
 use super::file::WIDTHS;
 use super::fit::prepared;
-use super::grey::Grey;
 use super::ground::{Channels, Ground};
 use super::level::{Look, Texture};
 use super::mesh::triangles;
@@ -15,6 +14,7 @@ use super::table::Table;
 use super::trust::Trust;
 use crate::disk::{Fault, Result};
 use crate::geometry::{Point, Rect};
+use crate::photo::Grey;
 
 /// Whom a model is to fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,8 +1,8 @@
 //! Mirror images: what is learned from a face holds for its mirror image, once it is known which point is whose twin.
 
 use super::align::align;
-use super::grey::Grey;
 use crate::geometry::{Point, Similarity};
+use crate::photo::Grey;
 
 /// A point and its twin lie this near when one is mirrored, in widths of the mean shape.
 const NEAR: f64 = 0.08;

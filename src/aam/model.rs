@@ -3,7 +3,6 @@
 use super::align::align;
 use super::detected::Detected;
 use super::fit::{Fit, Fitter, Start};
-use super::grey::Grey;
 use super::level::{Level, Look};
 use super::mesh::triangles;
 use super::shape::Shapes;
@@ -11,6 +10,7 @@ use super::skirt::{border, skirted};
 use super::trust::Trust;
 use crate::face::find::Found;
 use crate::geometry::{Point, Similarity};
+use crate::photo::Grey;
 
 /// A trained active appearance model, ready to fit.
 #[derive(Debug, Clone)]

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::annotation::Annotation;
-use super::grey::Grey;
 use crate::disk::{Fault, FileFault, Result, inside, list};
 use crate::geometry::Point;
+use crate::photo::Grey;
 
 /// A picture and the points in it.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,10 +8,11 @@ use serde_json::json;
 
 use super::output_fault;
 use super::print::say;
-use crate::aam::{Annotation, Fit, Fitter, Grey, Kind, Model, Options, Shot, Start};
+use crate::aam::{Annotation, Fit, Fitter, Kind, Model, Options, Shot, Start};
 use crate::disk::{Fault, Result, printable_json, shown, write_output};
 use crate::face::find::find;
 use crate::geometry::{Point, Rect};
+use crate::photo::Grey;
 use crate::plot;
 use crate::render::{Painter, encode_png};
 

@@ -9,9 +9,10 @@ use super::output_fault;
 use super::print::{self, say};
 use super::times::{Row, json, seconds, table};
 use crate::disk::{Fault, Result, read_text, write_output};
+use crate::media::Sound;
 use crate::project::{Clip, Lesson, tiers_of};
 use crate::script::{self, Syllable, System};
-use crate::speech::{self, Alignment, Note, Sound, Take};
+use crate::speech::{self, Alignment, Note, Take};
 use crate::timing::{self, Format, Interval, Tier, Timing};
 
 /// Find when each syllable of a script is spoken. In a lesson the times go into timing.TextGrid; boundaries that you have

@@ -4,6 +4,7 @@
 //! It knows nothing of feature points; what makes a face of all this is `face`.
 
 mod plane;
+mod grey;
 mod limits;
 mod jpeg;
 mod read;
@@ -29,6 +30,8 @@ pub use cuts::Cut;
 pub use edges::{Divisions, Edges, sobel};
 pub use eye_pair::{EyePair, EyePairs};
 pub use eyeballs::{Eyeball, Eyeballs};
+pub use grey::Grey;
+pub(crate) use grey::halve;
 pub use hsi::{Hsi, hue, hue_distance};
 pub use jpeg::jpeg_luma;
 pub use limits::MAX_PHOTO_SIDE;

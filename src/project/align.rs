@@ -10,8 +10,9 @@ use super::change::Times;
 use super::doubts::{CONFIDENCE, NOT_HEARD, NOT_IN_SCRIPT};
 use super::{Change, Clip, Edit, Lesson, ProjectFault, counted};
 use crate::disk::{Fault, Result};
+use crate::media::Sound;
 use crate::script::{self, Syllable};
-use crate::speech::{self, Alignment, Note, Pin, Sound, Take};
+use crate::speech::{self, Alignment, Note, Pin, Take};
 use crate::timing::{Interval, Tier, Timing};
 
 /// Clips of one face are listened to together, as many in the manifest's order as have so much sound, in seconds: the

@@ -9,9 +9,9 @@ use crate::aam::{Annotation, annotation};
 use crate::disk::{Fault, FileFault, Result, copy, make_folder, open, read_bytes, replace, write_whole};
 use crate::face::{Anchors, Created, create};
 use crate::geometry::Point;
+use crate::media::Source;
 use crate::photo::{MAX_PHOTO_BYTES, Photo, sha256, to_clean_png, without_metadata};
 use crate::pose::Emotion;
-use crate::track::Source;
 
 /// A photo is kept at most so many pixels wide and high: a cartoon needs no more, and a repository thanks for it.
 const KEPT_SIDE: usize = 2000;

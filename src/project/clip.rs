@@ -11,9 +11,9 @@ use super::times::{OWN_TIERS, of_shapes, phones_of};
 use super::{ProjectFault, video};
 use crate::disk::{Fault, FileFault, Message, Pending, Result, Sum, Task, inside, list, message, read_text};
 use crate::emotion::{Record, Tracks};
+use crate::media::Sound;
 use crate::pose::MouthPreset;
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
-use crate::speech::Sound;
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Interval, Tier, Timing};
 

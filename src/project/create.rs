@@ -16,11 +16,12 @@ use crate::disk::{
 use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
+use crate::media::sound_of;
 use crate::pose::Emotion;
 use crate::script::System;
 use crate::speech::Note;
 use crate::timing::{self, Format};
-use crate::track::{Options, sound_of};
+use crate::track::Options;
 
 /// The largest recording that is copied: hours of sound.
 const MAX_SOUND_BYTES: u64 = 4 << 30;
@@ -317,7 +318,7 @@ fn neutral(new: &NewLesson) -> Result<Option<(Brought, Created)>> {
 /// Reads every input where it is, before a folder is made, so that a fault names the author's file and nothing is left.
 fn check_inputs(new: &NewLesson) -> Result<()> {
     if let Some(path) = &new.speech {
-        crate::speech::Sound::read(path)?;
+        crate::media::Sound::read(path)?;
     }
     if let Some(path) = &new.script {
         crate::script::syllables(&read_text(path)?, new.system.unwrap_or(System::Auto)).map_err(|f| f.at(path))?;

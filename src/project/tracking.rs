@@ -9,8 +9,9 @@ use super::video::FRAMES_FPS;
 use super::{Clip, Lesson, LessonFace, ProjectFault};
 use crate::disk::{Fault, Message, Result, Task, message};
 use crate::emotion::Kept;
+use crate::media::Source;
 use crate::photo::Photo;
-use crate::track::{self, Options, Source, Tracked};
+use crate::track::{self, Options, Tracked};
 
 /// How a face is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

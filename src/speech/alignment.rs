@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Sound;
+use crate::media::Sound;
 use crate::script::Syllable;
 
 /// Confidence from which on a syllable's times need no look.

@@ -3,9 +3,10 @@
 //! A syllable has a vowel, and a vowel is loud and has a voice (after de Jong and Wempe 2009). So its nucleus is a peak of
 //! sonority between two dips, with pitch at it.
 
+use super::Pitch;
 use super::pitch::pitch;
 use super::sonority::{STEPS, sonority};
-use super::{Pitch, Sound};
+use crate::media::Sound;
 
 /// How far sonority falls between two syllables at least, in dB.
 const DIP: f32 = 2.0;

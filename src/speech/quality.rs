@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::Sound;
 use super::levels::{LOWEST, STEPS, levels};
+use crate::media::Sound;
 
 /// How good a recording is. Levels are in dB below full scale, root mean square unless they are called peaks.
 #[derive(Debug, Clone, PartialEq)]

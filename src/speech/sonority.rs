@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use super::decimate::decimated;
+use crate::media::decimated;
 
 /// Steps a second.
 pub(super) const STEPS: f64 = 200.0;

@@ -1,6 +1,7 @@
 //! Where a recording is not silent.
 
 use super::levels::{LOWEST, STEPS, levels};
+use crate::media::Sound;
 
 /// The share of a file's quietest steps that its noise is judged by.
 const QUIET: f64 = 0.06;
@@ -31,6 +32,15 @@ const CLICK: f64 = 0.04;
 
 /// What is nearer to each other is one span, in seconds: longer than the closure of most stops.
 const NEAR: f64 = 0.15;
+
+impl Sound {
+    /// The spans that are not silence, in seconds, by rising time. The noise of the file
+    /// itself decides what silence is; ends are good to 5 ms, spans less than 0.15 s apart are one, clicks are none.
+    #[must_use]
+    pub fn sounding(&self) -> Vec<(f64, f64)> {
+        spans(&self.samples, self.rate)
+    }
+}
 
 /// The spans that are not silence, in seconds, by rising time; none where all is silent.
 ///

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::Sound;
-use super::decimate::decimated;
 use super::fourier::Powers;
+use crate::media::Sound;
+use crate::media::decimated;
 
 /// Bands of frequency, equally wide in mel: more than a strip in a terminal has rows.
 const BANDS: usize = 64;

@@ -8,9 +8,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::job::Job;
 use super::state::State;
 use crate::disk::Result;
+use crate::media::Source;
 use crate::photo::Photo;
 use crate::project::{Followed, Method, TrackJob};
-use crate::track::{Options, Source};
+use crate::track::Options;
 
 /// A search that is under way.
 #[derive(Debug)]

@@ -7,10 +7,10 @@ use std::sync::atomic::AtomicBool;
 use super::export::ExportRequest;
 use crate::face::{Anchors, Face};
 use crate::geometry::Point;
+use crate::media::Sound;
+use crate::media::Source;
 use crate::pose::Emotion;
 use crate::project::{AlignJob, TrackJob};
-use crate::speech::Sound;
-use crate::track::Source;
 
 /// Work that takes long enough to be done elsewhere.
 #[derive(Debug)]

@@ -25,12 +25,12 @@ use crate::drawing::Drawing;
 use crate::emotion::Kept;
 use crate::face::Created;
 use crate::geometry::Point;
+use crate::media::Source;
 use crate::photo::Photo;
 use crate::pose::Emotion;
 use crate::project::Followed;
 use crate::project::{Finding, Lesson};
 use crate::speech::{Alignment, Heard, Spectrogram};
-use crate::track::Source;
 
 /// What a thread has to tell.
 #[derive(Debug)]

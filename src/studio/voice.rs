@@ -11,7 +11,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use tempfile::NamedTempFile;
 
 use crate::disk::Program;
-use crate::speech::{Sound, write_wav};
+use crate::media::{Sound, write_wav};
 
 /// Players that are known, the quickest to begin first, with what they are given before the file.
 const PLAYERS: [(&str, &[&str]); 5] = [

@@ -19,10 +19,10 @@ use crate::drawing::Drawing;
 use crate::emotion::Kept;
 use crate::face::{Anchors, Created, Face};
 use crate::geometry::Point;
+use crate::media::Source;
 use crate::photo::{Photo, Stages};
 use crate::project::{Finding, Lesson, check};
 use crate::speech::{Spectrogram, nuclei, pitch};
-use crate::track::Source;
 
 /// Starts a job. Whatever becomes of it, it reports its end.
 pub(super) fn start(job: Job, reports: Sender<Report>, exporter: Arc<Mutex<Exporter>>, aligner: Aligner) {

@@ -5,11 +5,13 @@ use super::gather::{Instant, Rest, Seen, gathered, step};
 use super::gaze::iris;
 use super::measure::Neutral;
 use super::said::ranges;
-use super::{Frame, GoOn, Options, Source, TrackFault, Tracked, stopped};
-use crate::aam::{Fit, Grey, Model};
+use super::{GoOn, Options, TrackFault, Tracked, stopped};
+use crate::aam::{Fit, Model};
 use crate::disk::{Fault, Message, Result};
 use crate::emotion::Calibration;
 use crate::geometry::Vec2;
+use crate::media::{Frame, Source};
+use crate::photo::Grey;
 
 /// Below this opening an eye is too narrow for its iris to be seen.
 const OPEN_TO_LOOK: f64 = 0.45;

@@ -8,10 +8,6 @@ use crate::disk::FaultKind;
 pub enum TrackFault {
     /// No face is found in the video.
     NoFace,
-    /// The program that decodes the video is not there.
-    NoDecoder,
-    /// The video has no such frame.
-    NoSuchFrame,
     /// It was stopped by its caller.
     Stopped,
 }

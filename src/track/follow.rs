@@ -1,9 +1,10 @@
 //! A face followed from frame to frame: found again where it is lost, and never taken for found where it is not.
 
-use crate::aam::{Fit, Fitter, Grey, Model, Start};
+use crate::aam::{Fit, Fitter, Model, Start};
 use crate::emotion::Calibration;
 use crate::face::find::{Found, find};
 use crate::geometry::{Point, Similarity};
+use crate::photo::Grey;
 
 /// Follows one face: that of a calibration, by its model.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Where an eye looks: the dark iris within the opening of the lids (thesis sec. 3.4.1, 6.2, inside lids that are known).
 
-use crate::aam::Grey;
 use crate::geometry::{Point, Vec2};
+use crate::photo::Grey;
 
 /// Places across and down an eye's opening at which it is looked at.
 const ACROSS: usize = 40;

@@ -1,13 +1,11 @@
-//! Videos read: from frames to the seven ratios, eyes, mouth and head of each, by active appearance model (paper
-//! sec. 3) or by regions (thesis ch. 6).
+//! Faces followed through videos: from frames to the seven ratios, eyes, mouth and head of each, by active appearance
+//! model (paper sec. 3) or by regions (thesis ch. 6).
 //!
-//! It owns the frames of a video as a stream, and how a face is followed through them. What a shape means is the room
-//! `emotion`'s.
+//! Frames come from `media`; the ratios of a shape are the business of `emotion`.
 
 mod by_aam;
 mod fault;
 mod follow;
-mod frames;
 mod gather;
 mod gaze;
 mod live;
@@ -19,7 +17,6 @@ mod said;
 pub use by_aam::by_aam;
 pub use fault::TrackFault;
 pub use follow::Follower;
-pub use frames::{Ffmpeg, Frame, Frames, Scan, Source, Y4m, sound_of};
 pub use live::Live;
 pub use regions::by_regions;
 pub use relay::relay;

@@ -1,6 +1,6 @@
 //! Recordings spoilt in known ways.
 
-use lianpu::speech::Sound;
+use lianpu::media::Sound;
 
 use crate::recordings::Recording;
 

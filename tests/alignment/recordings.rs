@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use lianpu::media::Sound;
 use lianpu::script::{Syllable, System, syllables};
-use lianpu::speech::{Alignment, Pin, Sound, Take, align};
+use lianpu::speech::{Alignment, Pin, Take, align};
 use lianpu::timing;
 
 use crate::test_data;

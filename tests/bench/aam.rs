@@ -7,8 +7,9 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use lianpu::aam::{Annotation, Fit, Fitter, Grey, Kind, Model, Options, Start};
+use lianpu::aam::{Annotation, Fit, Fitter, Kind, Model, Options, Start};
 use lianpu::geometry::Point;
+use lianpu::photo::Grey;
 
 fn franck() -> Option<PathBuf> {
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");

@@ -12,8 +12,9 @@
 mod test_data;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use lianpu::media::Sound;
 use lianpu::script::{System, syllables};
-use lianpu::speech::{Sound, Take, align};
+use lianpu::speech::{Take, align};
 
 fn lengths(c: &mut Criterion) {
     let Some(folder) = test_data::find("speech/self") else { return };

@@ -13,13 +13,15 @@ mod test_data;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use lianpu::aam::{Annotation, Grey, Kind, Model, Options as Training};
+use lianpu::aam::{Annotation, Kind, Model, Options as Training};
 use lianpu::emotion::{Binding, Calibration, Shape, Source as From};
 use lianpu::face::FeaturePoint as P;
 use lianpu::face::find::find;
 use lianpu::geometry::Point;
+use lianpu::media::Source;
+use lianpu::photo::Grey;
 use lianpu::photo::Photo;
-use lianpu::track::{Options, Source, Tracked, by_aam};
+use lianpu::track::{Options, Tracked, by_aam};
 
 /// The shots of a man talking, in the order of the seven emotions. Only the first two are what they are called.
 const SHOTS: [&str; 7] = ["0565", "0075", "1090", "1195", "0260", "1080", "1095"];

@@ -1,7 +1,7 @@
 //! Streams of frames: YUV4MPEG2 in its kinds, cut and damaged; videos by ffmpeg, and by a program that plays it.
 
 use super::*;
-use lianpu::track::{Ffmpeg, Scan, Y4m};
+use lianpu::media::{Ffmpeg, Scan, Y4m};
 
 /// A stream of `frames` pictures of 6 × 4 pixels.
 fn stream(head: &str, size: usize, frames: usize) -> Vec<u8> {
@@ -196,9 +196,9 @@ fn a_real_ffmpeg_reads_a_real_video() {
     }
     let dir = tempfile::tempdir().unwrap();
     let wav = dir.path().join("speech.wav");
-    lianpu::track::sound_of(&clip, &wav).unwrap();
-    let sound = lianpu::speech::Sound::read(&wav).unwrap();
+    lianpu::media::sound_of(&clip, &wav).unwrap();
+    let sound = lianpu::media::Sound::read(&wav).unwrap();
     assert!((sound.duration() - 3.0).abs() < 0.2, "{}", sound.duration());
     let silent = clip.with_file_name("LICENSES.md");
-    assert!(lianpu::track::sound_of(&silent, &wav).is_err());
+    assert!(lianpu::media::sound_of(&silent, &wav).is_err());
 }

@@ -8,12 +8,13 @@ use super::quality::Quality;
 use super::settle::Settling;
 use super::spread::Spread;
 use super::{Calibration, Shape, Source};
-use crate::aam::{Grey, Model};
+use crate::aam::Model;
 use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{FeaturePoint as P, How, Part, Placed};
 use crate::geometry::{Point, Similarity, Vec2};
+use crate::photo::Grey;
 use crate::pose::Emotion;
 
 /// What calibrating gives.

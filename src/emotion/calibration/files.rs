@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use super::inputs::Inputs;
 use super::marks::Marks;
-use crate::aam::{Annotation, Grey};
+use crate::aam::Annotation;
 use crate::disk::{Fault, FileFault, Result, Task, inside, message, read_bytes, read_text};
 use crate::emotion::Binding;
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P, How, Placed};
 use crate::geometry::Point;
+use crate::photo::Grey;
 use crate::photo::{MAX_PHOTO_BYTES, sha256};
 use crate::pose::Emotion;
 

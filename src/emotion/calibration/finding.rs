@@ -4,10 +4,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::moves::Moves;
-use crate::aam::Grey;
 use crate::face::find::{Found, find};
 use crate::face::{FeaturePoint as P, How, Part};
 use crate::geometry::{Point, Similarity, Vec2};
+use crate::photo::Grey;
 
 /// Named points of a shot.
 #[derive(Debug, Clone)]

@@ -1,10 +1,10 @@
 //! What a calibration is made of.
 
-use crate::aam::Grey;
 use crate::disk::{Fault, FileFault, Result};
 use crate::emotion::Binding;
 use crate::face::{FeaturePoint as P, How, Placed};
 use crate::geometry::Point;
+use crate::photo::Grey;
 use crate::pose::Emotion;
 
 /// A shot of an emotion: its picture and what is known of its points.

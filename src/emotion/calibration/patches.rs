@@ -1,7 +1,7 @@
 //! What a person's face looks like round each point, and where that is seen in another shot.
 
-use crate::aam::Grey;
 use crate::geometry::{Point, Similarity, Vec2};
+use crate::photo::Grey;
 
 /// Half a patch, in samples.
 const HALF: isize = 7;

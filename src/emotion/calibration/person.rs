@@ -3,10 +3,11 @@
 
 use super::calibrate::{Ground, Known};
 use super::warped::bent;
-use crate::aam::{Grey, Kind, Model, Options};
+use crate::aam::{Kind, Model, Options};
 use crate::disk::Result;
 use crate::face::FeaturePoint as P;
 use crate::geometry::{Point, Vec2};
+use crate::photo::Grey;
 use crate::pose::{Emotion, MouthShape};
 
 /// Inner edges of the lips farther apart than this, in pupil distances, are an open mouth.

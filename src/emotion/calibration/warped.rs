@@ -1,7 +1,8 @@
 //! A picture bent from one shape to another: what a face that was photographed at rest would look like.
 
-use crate::aam::{Grey, triangles};
+use crate::aam::triangles;
 use crate::geometry::{Point, Vec2};
+use crate::photo::Grey;
 use crate::photo::Mask;
 
 /// A triangle that grows to more than so many times its size shows what was hidden: the inside of a mouth.

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::disk::{Fault, Messages, Pipe, Result, Running, Setting, message};
 use crate::export::ExportFault;
-use crate::track::Ffmpeg;
+use crate::media::Ffmpeg;
 
 /// A running encoder; killed when dropped.
 pub(super) struct Encoder(Running);

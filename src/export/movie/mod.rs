@@ -20,9 +20,9 @@ use super::draft::{beside, write_fault};
 use super::stream::{Frames, Outcome, Rate, Watch};
 use crate::disk::{Fault, Result, clean_line, put_whole};
 use crate::export::ExportFault;
-use crate::speech::Sound;
+use crate::media::Ffmpeg;
+use crate::media::Sound;
 use crate::timing::{self, Tier, Timing};
-use crate::track::Ffmpeg;
 
 /// What a video is packed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 use crate::disk::Result;
 use crate::export::draft::{beside, write_fault};
 use crate::export::stream::Rate;
-use crate::speech::{Sound, write_wav};
+use crate::media::{Sound, write_wav};
 use crate::timing::{Interval, Tier};
 
 /// Samples a second of the sound in a video: what AAC and Opus both take as it is.

@@ -172,7 +172,7 @@ impl Bits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::speech::Sound;
+    use crate::media::Sound;
 
     #[test]
     fn what_is_written_is_read_back_to_the_last_bit() {

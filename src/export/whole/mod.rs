@@ -28,11 +28,11 @@ use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
 use super::run::elsewhere;
 use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
 use crate::disk::{Message, Result, read_old, write_whole};
+use crate::media::Ffmpeg;
 use crate::project::{Clip, Lesson, Output};
 use crate::render::Escaped;
 use crate::script::System;
 use crate::timing::MOHO_FPS;
-use crate::track::Ffmpeg;
 use sound::Encoded;
 
 /// What a file is called that all clips are in.

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::disk::{Fault, Pipe, Result, read_old, replace};
 use crate::export::ExportFault;
-use crate::speech::{Sound, write_wav};
-use crate::track::Ffmpeg;
+use crate::media::Ffmpeg;
+use crate::media::{Sound, write_wav};
 
 /// Bits a second of what is encoded: speech through one channel is clean from here on.
 const BITS: &str = "48k";

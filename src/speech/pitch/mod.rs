@@ -8,8 +8,8 @@
 mod path;
 mod yin;
 
-use super::Sound;
-use super::decimate::decimated;
+use crate::media::Sound;
+use crate::media::decimated;
 
 /// Seconds from one value to the next.
 const STEP: f64 = 0.005;

@@ -1,8 +1,8 @@
 //! The eyes from frame to frame by a reserved threshold and seeds (thesis sec. 6.2).
 
 use super::window::{Window, below};
-use crate::aam::Grey;
 use crate::geometry::{Point, Vec2};
+use crate::photo::Grey;
 use crate::photo::{Bounds, Eyeball, Eyeballs, Neighbours, Region, Regions};
 
 /// t₁ = m₁ − 1.3 s₁, where the thesis has s₁ alone (eq. 3.3): around the eyes of a man talking the regions' heights then go

@@ -10,13 +10,14 @@ mod window;
 
 use super::gather::{Instant, Rest, Seen, gathered};
 use super::measure::{Measures, Neutral};
-use super::{Frame, GoOn, Options, Source, Tracked, stopped};
-use crate::aam::Grey;
+use super::{GoOn, Options, Tracked, stopped};
 use crate::disk::{Fault, Result, Setting, message};
 use crate::emotion::{Calibration, Choice, Decomposition, MouthMoves};
 use crate::face::find::find;
 use crate::face::{Face, FeaturePoint as P};
 use crate::geometry::{Point, Similarity, Vec2};
+use crate::media::{Frame, Source};
+use crate::photo::Grey;
 use crate::pose::Ratios;
 use crate::track::TrackFault;
 use eyes::Eyes;

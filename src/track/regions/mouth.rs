@@ -5,9 +5,9 @@
 //! that is what grows here.
 
 use super::window::{Window, below};
-use crate::aam::Grey;
 use crate::emotion::MouthMoves;
 use crate::geometry::{Point, Rect, Similarity, Vec2};
+use crate::photo::Grey;
 use crate::photo::{Neighbours, Regions};
 use crate::pose::{MouthPose, MouthPreset, MouthShape};
 

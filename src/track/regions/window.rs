@@ -1,7 +1,7 @@
 //! A box of a picture.
 
-use crate::aam::Grey;
 use crate::geometry::Point;
+use crate::photo::Grey;
 use crate::photo::{Bounds, Mask};
 
 /// A box of a picture that is looked at.

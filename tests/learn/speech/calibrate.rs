@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
+use lianpu::media::Sound;
+use lianpu::speech::Take;
 use lianpu::speech::align::confidence::{SIGNS, confidence};
 use lianpu::speech::align::model::Model;
 use lianpu::speech::align::works;
-use lianpu::speech::{Sound, Take};
 
 use crate::chance::Chance;
 use crate::corpus;

@@ -4,8 +4,8 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use lianpu::media::Sound;
 use lianpu::script::{Syllable, System, segments, syllables};
-use lianpu::speech::Sound;
 use lianpu::speech::align::features::{FRAMES, Features, RATE};
 use lianpu::speech::align::units::{Unit, spelled};
 

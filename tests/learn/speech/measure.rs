@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use lianpu::media::Sound;
 use lianpu::script::{Syllable, System, syllables};
 use lianpu::speech::align::model::Model;
 use lianpu::speech::align::works;
-use lianpu::speech::{Alignment, Sound, Take};
+use lianpu::speech::{Alignment, Take};
 
 use crate::chance::Chance;
 use crate::corpus;

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 use super::{Coded, Frame};
-use crate::aam::Grey;
 use crate::disk::{Fault, FileFault, Result, list, read_bytes};
+use crate::photo::Grey;
 use crate::photo::MAX_PHOTO_BYTES;
 
 /// Endings of the pictures that are frames.

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use super::{MAX_PHOTO_BYTES, Photo, jpeg_luma};
 use crate::disk::{Result, read_bytes};
 use crate::drawing::Image;
-use crate::photo::{MAX_PHOTO_BYTES, Photo, jpeg_luma};
 
 /// Luma (Rec. 601 on sRGB values) of 8 bits.
 pub type Grey = Image<u8>;
@@ -62,7 +62,7 @@ impl Grey {
 }
 
 /// Appends the means of blocks of two by two of two rows.
-pub(super) fn halve(top: &[u8], below: &[u8], out: &mut Vec<u8>) {
+pub(crate) fn halve(top: &[u8], below: &[u8], out: &mut Vec<u8>) {
     let ((top, _), (below, _)) = (top.as_chunks::<2>(), below.as_chunks::<2>());
     out.extend(
         top.iter()

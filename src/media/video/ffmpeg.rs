@@ -10,7 +10,7 @@ use std::process::ChildStdout;
 
 use super::y4m::Y4m;
 use crate::disk::{Fault, Pipe, Program, Result, Running, open, settle, temporary_in};
-use crate::track::TrackFault;
+use crate::media::MediaFault;
 
 /// The program, found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Ffmpeg {
     /// When it is not there, with the one command that makes frames of a video where it is.
     pub fn find() -> Result<Self> {
         Self::on_path().ok_or_else(|| {
-            Fault::of(TrackFault::NoDecoder, "a video needs the program ffmpeg, which is not on the PATH").help(
+            Fault::of(MediaFault::NoDecoder, "a video needs the program ffmpeg, which is not on the PATH").help(
                 "install it, or make frames of the video where it is and give their folder: \
                  ffmpeg -i VIDEO -q:v 2 frames/%05d.jpg",
             )
@@ -116,7 +116,7 @@ pub(super) struct Reading {
 impl Reading {
     /// The bytes that it writes.
     fn output(&mut self) -> Result<BufReader<ChildStdout>> {
-        self.running.output().ok_or_else(|| Fault::of(TrackFault::NoDecoder, "ffmpeg has no output"))
+        self.running.output().ok_or_else(|| Fault::of(MediaFault::NoDecoder, "ffmpeg has no output"))
     }
 
     /// The stream of frames that it writes.
@@ -161,7 +161,7 @@ pub(super) fn duration_said(said: &str) -> Option<f64> {
 }
 
 /// Writes the sound of a video as WAV, one channel, 48 kHz, 16 bits. MP4, MOV and Matroska files with common sound are
-/// read by [`Sound`](crate::speech::Sound) itself and need no ffmpeg.
+/// read by [`Sound`](crate::media::Sound) itself and need no ffmpeg.
 ///
 /// # Errors
 /// When ffmpeg is missing, the video cannot be read or has no sound, or the file cannot be written.

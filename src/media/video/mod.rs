@@ -15,8 +15,8 @@ pub use y4m::{Scan, Y4m};
 
 use std::path::PathBuf;
 
-use crate::aam::Grey;
 use crate::disk::Result;
+use crate::photo::Grey;
 use crate::photo::Photo;
 
 /// A frame of a video.

@@ -10,7 +10,7 @@ const KEPT: f64 = 0.8;
 
 /// A sound at its rate divided by the largest whole number that leaves at least `least` samples a second, low-passed
 /// before (sinc in a Blackman window), and that rate. Sample i of it is where sample i times that number was.
-pub(super) fn decimated(samples: &[f32], rate: u32, least: u32) -> (Vec<f32>, f64) {
+pub(crate) fn decimated(samples: &[f32], rate: u32, least: u32) -> (Vec<f32>, f64) {
     let factor = (rate / least.max(1)).max(1) as usize;
     if factor == 1 {
         return (samples.to_vec(), f64::from(rate.max(1)));

@@ -1,12 +1,28 @@
-//! A recording in memory.
+//! A recording in memory, and how it is read.
+
+mod decimate;
+mod decode;
+mod iso;
+mod kind;
+mod mix;
+mod mp3;
+mod peaks;
+mod read;
+mod resample;
+mod wav;
+mod wav_form;
+mod wav_writer;
 
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use super::peaks::Pyramid;
-use super::resample::Resampled;
-use super::{read, sounding};
+use peaks::Pyramid;
+
+pub(crate) use decimate::decimated;
+pub use resample::Resampled;
+pub use wav_writer::write_wav;
+
 use crate::disk::Result;
 
 /// A recording, its channels mixed into one.
@@ -21,7 +37,7 @@ pub struct Sound {
     /// What was wrong with the file and mended, one line each.
     pub warnings: Vec<String>,
     /// The root mean square of each channel; none where it was not read from a file.
-    pub(super) sides: Vec<f64>,
+    pub(crate) sides: Vec<f64>,
     outline: OnceLock<Pyramid>,
 }
 
@@ -89,12 +105,5 @@ impl Sound {
     #[must_use]
     pub fn resampling(&self, rate: u32) -> Resampled<'_> {
         Resampled::new(&self.samples, self.rate, rate)
-    }
-
-    /// The spans that are not silence, in seconds, by rising time. The noise of the file
-    /// itself decides what silence is; ends are good to 5 ms, spans less than 0.15 s apart are one, clicks are none.
-    #[must_use]
-    pub fn sounding(&self) -> Vec<(f64, f64)> {
-        sounding::spans(&self.samples, self.rate)
     }
 }

@@ -11,8 +11,8 @@ use super::ffmpeg::{Ffmpeg, duration_said};
 use super::y4m::{MAGIC, Scan, Y4m};
 use super::{Frames, MOST_FPS, folder, print};
 use crate::disk::{Fault, FileFault, Result, open};
+use crate::media::MediaFault;
 use crate::photo::Photo;
-use crate::track::TrackFault;
 
 /// A video that can be read.
 #[derive(Debug, Clone)]
@@ -191,7 +191,7 @@ impl Source {
     pub fn frame(&self, number: u32) -> Result<Photo> {
         let none = || {
             let there = self.count.map_or(String::new(), |n| format!(": there are {n}, counted from 0"));
-            Fault::of(TrackFault::NoSuchFrame, format!("there is no frame {number}{there}")).at(self.path())
+            Fault::of(MediaFault::NoSuchFrame, format!("there is no frame {number}{there}")).at(self.path())
         };
         match &self.kind {
             Kind::Pictures(_, paths) => Photo::read(paths.get(number as usize).ok_or_else(none)?),

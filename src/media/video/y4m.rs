@@ -4,8 +4,8 @@
 use std::io::Read;
 
 use super::{Coded, Frame, MOST_FPS};
-use crate::aam::Grey;
 use crate::disk::{Fault, FileFault, Result, clean_line};
+use crate::photo::Grey;
 use crate::photo::Photo;
 
 /// The magic word that a stream begins with.
