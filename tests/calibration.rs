@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lianpu::aam::Annotation;
-use lianpu::emotion::{Binding, Calibrated, CalibrationFile, Choice, Inputs, Marks, ShotFiles, Source, calibrate};
+use lianpu::calibration::{Binding, Calibrated, CalibrationFile, Choice, Inputs, Marks, ShotFiles, Source, calibrate};
 use lianpu::face::find::find;
 use lianpu::face::{FeaturePoint as P, How, Part, Placed};
 use lianpu::geometry::Point;

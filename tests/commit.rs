@@ -7,10 +7,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use lianpu::calibration::Kept;
 use lianpu::disk::Lock;
-use lianpu::emotion::{Kept, Record};
 use lianpu::face::Face;
 use lianpu::project::{Change, Edit, Finding, Footage, Lesson, check};
+use lianpu::ratios::Record;
 use lianpu::timeline::{Key, KeyValue};
 
 mod faulty_disk;

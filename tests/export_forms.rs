@@ -289,7 +289,7 @@ fn times_and_shapes_are_read_back_as_they_were_written() {
     let (old, new) = (lesson.clips[0].sound.as_ref().unwrap(), lianpu::media::Sound::read(&at("wav")).unwrap());
     assert_eq!((old.rate, &old.samples), (new.rate, &new.samples), "the sound is the recording's");
     let table = text(folder.path().join("moods.ratios.csv"));
-    assert_eq!(lianpu::emotion::Record::parse(&table).unwrap().rows.len(), 20);
+    assert_eq!(lianpu::ratios::Record::parse(&table).unwrap().rows.len(), 20);
     let notes: Vec<&lianpu::disk::Message> = written.iter().flat_map(|w| &w.notes).collect();
     assert!(notes.iter().any(|n| n.to_string().contains("moods has no sound")), "{notes:?}");
 }

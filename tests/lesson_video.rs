@@ -5,8 +5,9 @@
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
-use lianpu::emotion::{Kept, Record};
+use lianpu::calibration::Kept;
 use lianpu::project::{Lesson, Method, TrackJob};
+use lianpu::ratios::Record;
 use lianpu::track::Options;
 
 /// A copy of the sample lesson without anything that was found in it, its video cut to a second.

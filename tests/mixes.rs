@@ -2,13 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-use lianpu::emotion::{
-    Binding, Choice, Decomposition, Moment, MouthMoves, Record, Row, SMOOTH_WIDTH, Steady, TrackRow, Tracks,
-    smooth_record, smooth_tracks,
-};
+use lianpu::calibration::{Binding, Choice, Decomposition};
 use lianpu::face::rig::{Neutral, Proportions};
 use lianpu::geometry::{Point, Similarity, Vec2};
 use lianpu::pose::{Emotion, Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
+use lianpu::ratios::{
+    Moment, MouthMoves, Record, Row, SMOOTH_WIDTH, Steady, TrackRow, Tracks, smooth_record, smooth_tracks,
+};
 
 mod average_face;
 mod chance;

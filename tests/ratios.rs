@@ -6,12 +6,13 @@
 use std::path::{Path, PathBuf};
 
 use lianpu::aam::{Fitter, Kind, Model, Options, Start};
-use lianpu::emotion::{self, Binding, Calibration, Choice, Kept, Record, Shape};
+use lianpu::calibration::{self, Binding, Calibration, Choice, Kept, Shape};
 use lianpu::face::FeaturePoint;
 use lianpu::geometry::{Point, Vec2};
 use lianpu::media::Source;
 use lianpu::photo::Grey;
 use lianpu::pose::{Emotion, Ratios};
+use lianpu::ratios::Record;
 use lianpu::track::by_aam;
 
 mod chance;
@@ -68,7 +69,8 @@ fn frames() -> Vec<Known> {
 }
 
 fn calibration(shapes: [Vec<Point>; 7]) -> Calibration {
-    Calibration::new(shapes.map(|points| Shape { points, source: emotion::Source::Marked }), Binding::own()).unwrap()
+    Calibration::new(shapes.map(|points| Shape { points, source: calibration::Source::Marked }), Binding::own())
+        .unwrap()
 }
 
 fn pupils(points: &[Point]) -> f64 {

@@ -5,14 +5,12 @@
 use std::path::Path;
 
 use lianpu::aam::{Annotation, Fit, Fitter, Kind, Model, Options, Start};
-use lianpu::emotion::{
-    Binding, Calibration, Choice, LprReader, LprWriter, Moment, MouthMoves, Record, Row, Shape, Source, TrackRow,
-    Tracks, Whole, to_lpr,
-};
+use lianpu::calibration::{Binding, Calibration, Choice, Shape, Source};
 use lianpu::face::FeaturePoint as P;
 use lianpu::geometry::Point;
 use lianpu::photo::Grey;
 use lianpu::pose::{Gaze, Head, Lids, Ratios};
+use lianpu::ratios::{LprReader, LprWriter, Moment, MouthMoves, Record, Row, TrackRow, Tracks, Whole, to_lpr};
 use proptest::prelude::*;
 
 mod test_data;

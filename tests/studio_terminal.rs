@@ -320,8 +320,8 @@ fn piped(folder: &Path, producer: &str, more: &str) -> Terminal {
 
 #[test]
 fn a_record_is_drawn_as_it_arrives_ends_with_its_pipe_and_says_when_it_was_cut() {
-    use lianpu::emotion::{LprWriter, Moment, Row};
     use lianpu::pose::{Emotion, Ratios};
+    use lianpu::ratios::{LprWriter, Moment, Row};
     let dir = tempfile::tempdir().unwrap();
     let moment = |n: u32| Moment {
         row: Row {

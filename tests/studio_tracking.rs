@@ -7,7 +7,7 @@ mod studio_bench;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::emotion::{CalibrationFile, Marks, Source};
+use lianpu::calibration::{CalibrationFile, Marks, Source};
 use lianpu::face::{FeaturePoint, How, create};
 use lianpu::photo::Photo;
 use lianpu::pose::Emotion;

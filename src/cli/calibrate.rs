@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::print::say;
+use crate::calibration::{Calibrated, Source};
 use crate::disk::{Fault, Result, printable_json};
-use crate::emotion::{Calibrated, Source};
 use crate::pose::Emotion;
 use crate::project::Lesson;
 

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use super::output_fault;
 use super::print;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
-use crate::emotion::import::{self, Kind as Ratios};
-use crate::emotion::{Record, Tracks, Whole, to_lpr};
+use crate::ratios::import::{self, Kind as Ratios};
+use crate::ratios::{Record, Tracks, Whole, to_lpr};
 use crate::timing::{self, Format};
 
 /// What `lianpu convert` is asked.

@@ -4,8 +4,8 @@ use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use super::print;
+use crate::calibration::Kept;
 use crate::disk::{Fault, Result};
-use crate::emotion::Kept;
 use crate::project::Lesson;
 use crate::track::{Options, relay};
 

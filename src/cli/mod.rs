@@ -102,8 +102,8 @@ pub(crate) fn lessons(paths: &[std::path::PathBuf]) -> Vec<std::path::PathBuf> {
 }
 
 /// The calibration of a face's folder as its shots are now; what there is to say of it is said.
-pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::emotion::Calibration> {
-    let (kept, notes) = crate::emotion::Kept::of(folder)?;
+pub(crate) fn calibration_of(folder: &std::path::Path) -> Result<crate::calibration::Calibration> {
+    let (kept, notes) = crate::calibration::Kept::of(folder)?;
     notes.iter().for_each(print::note);
     Ok(kept.made.calibration)
 }

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use super::frames_done::FramesDone;
 use super::print;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
-use crate::emotion::{Record, Tracks, Whole, import, is_lpr};
 use crate::figure::{Figure, LineFigure};
 use crate::pose::MouthPreset;
 use crate::project::{Lesson, prepare};
+use crate::ratios::{Record, Tracks, Whole, import, is_lpr};
 use crate::studio::{self, Show};
 use crate::timeline::{Score, Sources, Timeline};
 

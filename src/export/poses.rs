@@ -1,7 +1,7 @@
 //! What a face does in every frame, as a table: for other programs, and for checking a lesson without looking at it.
 
-use crate::emotion::decimal;
 use crate::pose::Emotion;
+use crate::ratios::decimal;
 use crate::timeline::Timeline;
 
 /// The columns beside those of the seven ratios.

@@ -4,8 +4,8 @@ use super::axes::{TEXT, chart};
 use super::curves::heading;
 use super::{GREY, INK, colour_of};
 use crate::aam::triangles;
+use crate::calibration::{Calibration, Source};
 use crate::drawing::{Anchor, Colour, Drawing, Item};
-use crate::emotion::{Calibration, Source};
 use crate::geometry::{Affine, BezPath, Circle, Point, Rect, Shape, stroke_outline};
 use crate::pose::Emotion;
 

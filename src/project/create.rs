@@ -9,15 +9,16 @@ use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::settled::OWN_FOLDER;
 use super::video::FRAMES_FPS;
 use super::{AlignJob, Lesson, Method, ProjectFault, TrackJob};
+use crate::calibration::{Kept, Quality};
 use crate::disk::{
     Commit, Fault, FileFault, Message, Result, Setting, Sums, SystemCalls, Task, clean_line, clear_temporaries, list,
     make_folder, message, plain_name, read_bytes, read_text, temporary_prefix, write_whole,
 };
-use crate::emotion::{Kept, Quality, import};
 use crate::face::{Anchors, Created, Warning};
 use crate::figure::LineFigure;
 use crate::media::sound_of;
 use crate::pose::Emotion;
+use crate::ratios::import;
 use crate::script::System;
 use crate::speech::Note;
 use crate::timing::{self, Format};

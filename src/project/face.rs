@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use super::manifest::FaceEntry;
 use super::save::sum_of;
 use super::shots::{FaceShot, shots_of};
+use crate::calibration::{CALIBRATION, CalibrationFile};
 use crate::disk::{Pending, Result, Sum, inside, read_text};
-use crate::emotion::{CALIBRATION, CalibrationFile};
 use crate::face::{Face, create};
 use crate::photo::Photo;
 

@@ -6,7 +6,7 @@ use super::change::stale;
 use super::save::{RATIOS, TRACKS};
 use super::{Change, Clip, Edit, Lesson, counted};
 use crate::disk::{Commit, NextStep, Result, Setting, Task, message};
-use crate::emotion::{Record, Tracks};
+use crate::ratios::{Record, Tracks};
 use crate::track::Tracked;
 
 /// The record and the tracks of a clip, as the text of their files.

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::save::sum_of;
 use super::{LessonFace, ProjectFault};
+use crate::calibration::{Binding, CalibrationFile, Marks, sum_of_face, sum_of_marks};
 use crate::disk::{Commit, Fault, Pending, Result, Sum, Sums, inside, read_text};
-use crate::emotion::{Binding, CalibrationFile, Marks, sum_of_face, sum_of_marks};
 use crate::face::{Face, FeaturePoint, Placed};
 use crate::pose::Emotion;
 

@@ -1,14 +1,14 @@
 //! The face in a clip's video followed: what it takes as something that can go to a thread, and the calibration that it
 //! goes by.
 //!
-//! How a face is followed is the business of `track`, what its shapes mean that of `emotion`.
+//! How a face is followed is the business of `track`, what its shapes mean that of `calibration`.
 
 use std::path::PathBuf;
 
 use super::video::FRAMES_FPS;
 use super::{Clip, Lesson, LessonFace, ProjectFault};
+use crate::calibration::Kept;
 use crate::disk::{Fault, Message, Result, Task, message};
-use crate::emotion::Kept;
 use crate::media::Source;
 use crate::photo::Photo;
 use crate::track::{self, Options, Tracked};

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{AlignJob, Clip, Followed, Lesson, Method, ProjectFault, TrackJob, Tracking};
+use crate::calibration::Kept;
 use crate::disk::{Fault, Message, NextStep, Result, Setting, Task, message};
-use crate::emotion::Kept;
 use crate::speech::{Alignment, Note};
 use crate::track::Options;
 

@@ -6,8 +6,8 @@ use super::execute::save;
 use super::face_edits;
 use super::job::Job;
 use super::state::State;
+use crate::calibration::{CalibrationFile, Kept, Source};
 use crate::disk::Result;
-use crate::emotion::{CalibrationFile, Kept, Source};
 use crate::face::FeaturePoint;
 use crate::pose::Emotion;
 

@@ -18,8 +18,8 @@ pub use ease::Ease;
 pub use mouth::{MouthKey, Origin, Spoken};
 pub use score::{Key, KeyValue, Marker, Range, Score, Track};
 
-use crate::emotion::{Record, TrackRow, Tracks};
 use crate::pose::{Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
+use crate::ratios::{Record, TrackRow, Tracks};
 use ease::Curve;
 
 /// What a timeline is built from.

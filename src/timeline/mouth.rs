@@ -171,7 +171,7 @@ fn rest_around_the_author_s(keys: &mut Vec<MouthKey>) {
 /// What a tracked mouth does: lips and corners moved away from neutral by so much (`tracks.csv`), the emotion's part in
 /// it. The table counts lips in MNS0 and a pose in M, which are one on most faces; where M is MW0's, a figure opens a
 /// little less.
-fn of_track(row: &crate::emotion::TrackRow) -> MouthPose {
+fn of_track(row: &crate::ratios::TrackRow) -> MouthPose {
     MouthPose {
         upper: -row.mouth.up,
         lower: row.mouth.down,
@@ -274,16 +274,16 @@ mod tests {
 
     #[test]
     fn a_key_of_the_author_s_leaves_the_tracked_mouth_elsewhere_alone() {
-        let rows = (0..100).map(|frame| crate::emotion::TrackRow {
+        let rows = (0..100).map(|frame| crate::ratios::TrackRow {
             frame,
             time: f64::from(frame) * 0.04,
             gaze: crate::pose::Gaze::default(),
             lids: crate::pose::Lids::default(),
-            mouth: crate::emotion::MouthMoves { down: 0.8, ..crate::emotion::MouthMoves::default() },
+            mouth: crate::ratios::MouthMoves { down: 0.8, ..crate::ratios::MouthMoves::default() },
             head: crate::pose::Head::default(),
             confidence: 1.0,
         });
-        let tracks = crate::emotion::Tracks { rows: rows.collect() };
+        let tracks = crate::ratios::Tracks { rows: rows.collect() };
         let mut score = Score::default();
         score.keys.push(Key::new(1.0, KeyValue::Mouth(Some(MouthShape::M))));
         let line = Timeline::build(&Sources {

@@ -2,8 +2,8 @@
 
 use super::ease::Curve;
 use super::{KeyValue, Range, Score};
-use crate::emotion::{Record, smooth_keeping_peaks};
 use crate::pose::{Emotion, Ratios};
+use crate::ratios::{Record, smooth_keeping_peaks};
 
 #[derive(Debug, Clone)]
 pub(super) struct RatioTrack {

@@ -1,7 +1,7 @@
 //! A face followed from frame to frame: found again where it is lost, and never taken for found where it is not.
 
 use crate::aam::{Fit, Fitter, Model, Start};
-use crate::emotion::Calibration;
+use crate::calibration::Calibration;
 use crate::face::find::{Found, find};
 use crate::geometry::{Point, Similarity};
 use crate::photo::Grey;

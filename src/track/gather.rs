@@ -4,12 +4,12 @@
 use super::Tracked;
 use super::measure::Measures;
 use super::said::ranges;
-use crate::emotion::{
-    MouthMoves, Row, SMOOTH_WIDTH, TrackRow, Tracks, bridge_record, bridge_tracks, smooth_record, smooth_tracks,
-};
 use crate::face::rig::Expression;
 use crate::geometry::{Point, Vec2};
 use crate::pose::{Gaze, Head, Lids, Ratios};
+use crate::ratios::{
+    MouthMoves, Row, SMOOTH_WIDTH, TrackRow, Tracks, bridge_record, bridge_tracks, smooth_record, smooth_tracks,
+};
 
 /// What was seen of the face in a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]

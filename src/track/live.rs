@@ -4,10 +4,11 @@ use super::Options;
 use super::by_aam::Watcher;
 use super::gather::{Instant, Rest, Seen, at_rest};
 use crate::aam::Model;
+use crate::calibration::Calibration;
 use crate::disk::Result;
-use crate::emotion::{Calibration, Moment, Row, SMOOTH_WIDTH, Steady};
 use crate::photo::Grey;
 use crate::pose::Ratios;
+use crate::ratios::{Moment, Row, SMOOTH_WIDTH, Steady};
 
 /// Follows a face in frames that come one after the other, and looks at none ahead.
 ///

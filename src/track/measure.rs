@@ -1,9 +1,10 @@
 //! What a shape says beside the ratios: head, lids, mouth, and where the openings of the eyes are.
 
+use crate::calibration::Calibration;
 use crate::disk::{Fault, Result};
-use crate::emotion::{Calibration, MouthMoves};
 use crate::face::FeaturePoint as P;
 use crate::geometry::{Point, Similarity};
+use crate::ratios::MouthMoves;
 
 /// What does not move with the expression: the corners of the eyes and the nose. They say where the head is.
 const STEADY: [P; 9] = [P::P3_12, P::P3_8, P::P3_11, P::P3_7, P::P9_6, P::P9_7, P::P9_4, P::P9_5, P::P9_15];

@@ -1,7 +1,7 @@
 //! Faces followed through videos: from frames to the seven ratios, eyes, mouth and head of each, by active appearance
 //! model (paper sec. 3) or by regions (thesis ch. 6).
 //!
-//! Frames come from `media`; the ratios of a shape are the business of `emotion`.
+//! Frames come from `media`; the ratios of a shape are the business of `calibration`.
 
 mod by_aam;
 mod fault;
@@ -21,8 +21,9 @@ pub use live::Live;
 pub use regions::by_regions;
 pub use relay::relay;
 
+use crate::calibration::Choice;
 use crate::disk::{Fault, Message};
-use crate::emotion::{Choice, Record, Tracks};
+use crate::ratios::{Record, Tracks};
 
 /// What was found in a video.
 #[derive(Debug, Clone, PartialEq, Default)]

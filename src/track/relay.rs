@@ -4,9 +4,10 @@ use std::io::{Read, Write};
 
 use super::{Live, Options};
 use crate::aam::Model;
+use crate::calibration::Calibration;
 use crate::disk::{Fault, FileFault, Result};
-use crate::emotion::{Calibration, LprWriter};
 use crate::media::Y4m;
+use crate::ratios::LprWriter;
 
 /// Reads YUV4MPEG2 and writes the compact record of it with eyes, mouth and head, each frame as soon as it was seen and
 /// flushed: who reads it is one frame behind. No frame is left out: where frames come faster than they are followed, who

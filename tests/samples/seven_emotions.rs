@@ -6,8 +6,8 @@
 
 #![allow(clippy::print_stdout, reason = "printing is what it does")]
 
-use lianpu::emotion::{Record, Row};
 use lianpu::pose::{Emotion, Ratios};
+use lianpu::ratios::{Record, Row};
 
 const FPS: f64 = 25.0;
 

@@ -16,8 +16,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
-use lianpu::emotion::{Binding, Record, Row};
+use lianpu::calibration::Binding;
 use lianpu::pose::{Emotion, MouthPreset, Ratios};
+use lianpu::ratios::{Record, Row};
 use lianpu::timeline::{Score, Sources, Spoken, Timeline};
 use lianpu::timing::{Format, mouth_shape};
 

@@ -1,7 +1,7 @@
 //! Frames as they come.
 
 use super::*;
-use lianpu::emotion::LprReader;
+use lianpu::ratios::LprReader;
 use lianpu::track::{Live, relay};
 
 #[test]

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use lianpu::aam::{Annotation, Kind, Model, Options as Training};
-use lianpu::emotion::{Binding, Calibration, Shape, Source as From};
+use lianpu::calibration::{Binding, Calibration, Shape, Source as From};
 use lianpu::face::FeaturePoint as P;
 use lianpu::face::find::find;
 use lianpu::geometry::Point;

@@ -1,7 +1,7 @@
 //! The region tracker beside the model's.
 
 use super::*;
-use lianpu::emotion::TrackRow;
+use lianpu::ratios::TrackRow;
 use lianpu::track::by_regions;
 
 /// One number of a row of tracks.

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::File;
 use crate::disk::Result;
-use crate::emotion::{MouthMoves, Record, Row, TrackRow, Tracks, to_lpr};
 use crate::project::Clip;
+use crate::ratios::{MouthMoves, Record, Row, TrackRow, Tracks, to_lpr};
 use crate::timeline::Timeline;
 
 /// What the score gives at every frame: the author's keys and edits are in it.

@@ -6,7 +6,7 @@ use std::thread;
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 use crate::disk::Fault;
-use crate::emotion::{Moment, RecordReader};
+use crate::ratios::{Moment, RecordReader};
 
 /// The most frames that wait to be shown: 40 seconds at 25 a second. A file that is piped in waits there.
 const AHEAD: usize = 1000;

@@ -10,9 +10,9 @@ use ratatui::style::Style;
 use super::arrival::{Arrived, Room, read_ahead};
 use super::{Playback, Player};
 use crate::disk::{Fault, Result};
-use crate::emotion::{Moment, Record, Tracks};
 use crate::figure::Figure;
 use crate::pose::{MouthPreset, Pose};
+use crate::ratios::{Moment, Record, Tracks};
 use crate::studio::look::Colours;
 use crate::studio::run::turn;
 use crate::studio::{Action, draw};
@@ -257,9 +257,9 @@ fn timeline(record: Option<&Record>, tracks: Option<&Tracks>, duration: f64) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::emotion::Row;
     use crate::figure::LineFigure;
     use crate::pose::Ratios;
+    use crate::ratios::Row;
     use crate::studio::run::Desk;
 
     fn player() -> Player<LivePlayback> {

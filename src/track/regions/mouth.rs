@@ -5,11 +5,11 @@
 //! that is what grows here.
 
 use super::window::{Window, below};
-use crate::emotion::MouthMoves;
 use crate::geometry::{Point, Rect, Similarity, Vec2};
 use crate::photo::Grey;
 use crate::photo::{Neighbours, Regions};
 use crate::pose::{MouthPose, MouthPreset, MouthShape};
+use crate::ratios::MouthMoves;
 
 /// How far beside, above and below the neutral mouth it is looked for, in pupil distances: the nose's base stays outside.
 const BESIDE: f64 = 0.24;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use crate::calibration::Binding;
 use crate::disk::{Fault, FileFault, Result, Task, from_toml, message};
-use crate::emotion::Binding;
 use crate::face::{FeaturePoint, Placed, PointRow};
 
 /// The only `format` there is.

@@ -8,8 +8,8 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+use crate::calibration::{Choice, Decomposition};
 use crate::disk::Result;
-use crate::emotion::{Choice, Decomposition};
 use crate::geometry::Point;
 use crate::pose::Ratios;
 

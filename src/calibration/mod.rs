@@ -1,7 +1,13 @@
-//! A calibration: the shapes of a person's seven emotions, by which ratios are told.
+//! A person's calibration: the shapes of the seven emotions, from marked shots, found points or the rig, and how a shape
+//! is decomposed into the ratios of them (paper sec. 3, eq. 6).
+//!
+//! Photos of emotions go in, with the points of their annotations where there are any; a [`Calibration`] and its
+//! [`Quality`] come out, kept in a face's folder by [`Kept`]. The ratios over time are the business of `ratios`.
 
+mod binding;
 mod calibrate;
 mod closer;
+mod decompose;
 mod expressions;
 mod file;
 mod files;
@@ -18,7 +24,9 @@ mod settle;
 mod spread;
 mod warped;
 
+pub use binding::Binding;
 pub use calibrate::{Calibrated, calibrate};
+pub use decompose::{Choice, Decomposition, Reading};
 pub use file::CalibrationFile;
 pub use files::{ShotFiles, sum_of_face, sum_of_marks};
 pub use inputs::{Inputs, ShotInput};
@@ -26,7 +34,6 @@ pub use kept::{CALIBRATION, Kept};
 pub use marks::Marks;
 pub use quality::{Quality, Retake, ShotQuality};
 
-use super::{Binding, Choice, Decomposition, Reading};
 use crate::disk::{Fault, FileFault, Result};
 use crate::face::FeaturePoint as P;
 use crate::geometry::{Point, Similarity};

@@ -16,7 +16,8 @@ mod openface;
 use std::path::Path;
 
 use super::lpr::{Whole, is_lpr};
-use super::{Calibration, Record, Tracks};
+use super::{Record, Tracks};
+use crate::calibration::Calibration;
 use crate::disk::{self, Fault, FileFault, MAX_TEXT_BYTES, Result, Setting, Task, message};
 use frame::Seen;
 

@@ -75,8 +75,8 @@ fn between(a: &TrackRow, b: &TrackRow, t: f64) -> TrackRow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::emotion::Row;
     use crate::pose::{Emotion, Ratios};
+    use crate::ratios::Row;
 
     #[test]
     fn lost_rows_go_smoothly_from_the_last_found_to_the_next_and_the_ends_hold() {

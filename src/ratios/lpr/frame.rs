@@ -5,8 +5,8 @@ use super::coder::{Coder, Decoder, Encoder};
 use super::model::Bit;
 use super::{MAX_SECONDS, MAX_VALUE, Moment, near};
 use crate::disk::{Fault, Result};
-use crate::emotion::{MouthMoves, Row, TrackRow};
 use crate::pose::{Gaze, Head, Lids, Ratios};
+use crate::ratios::{MouthMoves, Row, TrackRow};
 
 /// Steps to a unit of each track: gaze, lids, mouth, head.
 const GAZE: [f64; 2] = [50.0; 2];

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::emotion::Binding;
+use crate::calibration::Binding;
 use crate::face::FeaturePoint as P;
 use crate::geometry::{Point, Vec2};
 

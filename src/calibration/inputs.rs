@@ -1,7 +1,7 @@
 //! What a calibration is made of.
 
+use crate::calibration::Binding;
 use crate::disk::{Fault, FileFault, Result};
-use crate::emotion::Binding;
 use crate::face::{FeaturePoint as P, How, Placed};
 use crate::geometry::Point;
 use crate::photo::Grey;

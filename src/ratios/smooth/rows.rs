@@ -3,8 +3,8 @@
 use super::local::{shares, tricube};
 use super::noise::{deviation, third_difference};
 use super::{likeness, parts, with_parts};
-use crate::emotion::{Record, Tracks};
 use crate::pose::Ratios;
+use crate::ratios::{Record, Tracks};
 
 /// A curve is taken only where it brings noise down to this share of its variance; else a simpler one is.
 const ENOUGH: f64 = 0.4;

@@ -4,7 +4,7 @@ use std::io::Read;
 
 use super::{LprReader, LprWriter, Moment};
 use crate::disk::{Fault, FileFault, Result};
-use crate::emotion::{Record, Tracks};
+use crate::ratios::{Record, Tracks};
 
 /// Frames to a packet of a file.
 const IN_A_FILE: u32 = 64;

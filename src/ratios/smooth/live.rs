@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use super::local::tricube;
 use super::noise::{ENOUGH, deviation, third_difference};
 use super::{likeness, parts, with_parts};
-use crate::emotion::Moment;
 use crate::pose::Ratios;
+use crate::ratios::Moment;
 
 /// Third differences that say how large the noise is: three seconds at 25 frames a second.
 const MEMORY: usize = 75;
@@ -16,9 +16,9 @@ const MEMORY: usize = 75;
 /// deviations of it behind.
 ///
 /// ```
-/// use lianpu::emotion::Steady;
+/// use lianpu::ratios::Steady;
 /// let mut steady = Steady::new(0.4);
-/// # let moments: Vec<lianpu::emotion::Moment> = Vec::new();
+/// # let moments: Vec<lianpu::ratios::Moment> = Vec::new();
 /// let smooth: Vec<_> = moments.iter().map(|moment| steady.push(moment)).collect();
 /// ```
 #[derive(Debug)]

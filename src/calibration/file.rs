@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::quality::Quality;
 use super::{Calibration, Shape, Source};
+use crate::calibration::Binding;
 use crate::disk::{Fault, FileFault, Message, Result, Task, from_toml, message, read_text};
-use crate::emotion::Binding;
 use crate::face::{FeaturePoint, MAX_COORDINATE};
 use crate::geometry::Point;
 use crate::pose::Emotion;

@@ -1,11 +1,12 @@
 //! From points of somebody else's tracker to ratios, through a person's calibration.
 
 use super::frame::{Seen, median, record};
+use crate::calibration::{Binding, Calibration, Choice, Decomposition};
 use crate::disk::{Fault, FileFault, Result};
-use crate::emotion::{Binding, Calibration, Choice, Decomposition, Record};
 use crate::face::FeaturePoint;
 use crate::geometry::{Point, Similarity, Vec2};
 use crate::pose::Ratios;
+use crate::ratios::Record;
 
 /// Widths of pictures for a height of 1, for points in shares of a picture whose size is not said.
 const ASPECTS: [f64; 7] = [16.0 / 9.0, 4.0 / 3.0, 1.0, 3.0 / 2.0, 5.0 / 4.0, 9.0 / 16.0, 3.0 / 4.0];

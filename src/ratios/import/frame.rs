@@ -2,9 +2,9 @@
 
 use super::blendshapes::{Reader, Shapes, value};
 use crate::disk::Result;
-use crate::emotion::{MouthMoves, Record, Row, TrackRow, Tracks, bridge_record, bridge_tracks};
 use crate::geometry::Point;
 use crate::pose::{Gaze, Head, Lids, Ratios};
+use crate::ratios::{MouthMoves, Record, Row, TrackRow, Tracks, bridge_record, bridge_tracks};
 
 /// One frame of somebody's tracker.
 #[derive(Debug, Clone, Default)]

@@ -1,6 +1,6 @@
 //! Where the feature points are among the points of well-known trackers.
 
-use super::Binding;
+use crate::calibration::Binding;
 use crate::face::FeaturePoint as P;
 
 /// A named point and the points it is the mean of, the later ones with their shares in hundredths.
