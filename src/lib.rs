@@ -24,6 +24,7 @@ pub mod figure;
 pub mod plot;
 pub mod render;
 pub mod project;
+pub mod forms;
 pub mod export;
 pub mod studio;
 pub mod cli;

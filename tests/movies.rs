@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use lianpu::disk::Result;
 use lianpu::drawing::Colour;
 use lianpu::drawing::Picture;
-use lianpu::export::movie::{self, Container, Film};
-use lianpu::export::{Frames, Outcome, Watch, apng, gif};
+use lianpu::forms::movie::{self, Container, Film};
+use lianpu::forms::{Frames, Outcome, Watch, apng, gif};
 use lianpu::media::Sound;
 use lianpu::timing::{Interval, Tier};
 

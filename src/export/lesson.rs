@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::plan::out_folder;
-use super::{ExportFault, Format, Ledger, Progress, Report, Request, Whole, movie, plan, run, wholes, write_wholes};
+use super::{ExportFault, Format, Ledger, Progress, Report, Request, Whole, plan, run, wholes, write_wholes};
 use crate::disk::{Fault, Message, Result, Setting, Task, clear_temporaries, message};
+use crate::forms::movie;
 use crate::project::Lesson;
 
 /// What an export is at.

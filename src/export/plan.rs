@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Dedupe, ExportFault, Format, FrameSet, Share, captions, poses, said};
+use super::{Dedupe, ExportFault, Format, FrameSet, Share};
 use crate::disk::{Fault, Result};
 use crate::drawing::Colour;
 use crate::figure::{Figure, Widths};
+use crate::forms::{captions, poses, said};
 use crate::project::{ClipEntry, Lesson, Output};
 use crate::timeline::Timeline;
 use crate::timing::Timing;

@@ -9,10 +9,11 @@ use rayon::prelude::*;
 use super::asked::within;
 use super::digests::Digests;
 use super::ledger::put_aside;
-use super::repeats::{Dedupe, Repeats, repeat, rounded};
+use super::repeats::{Dedupe, Repeats, repeat};
 use super::{Entry, ExportFault, Format, Job};
 use crate::disk::{self, Fault, Result, Setting, message, read_old, replace, write_whole};
 use crate::drawing::Drawing;
+use crate::forms::rounded;
 use crate::render::{ClipCoder, FrameCoder, REVISION, decode_key, to_svg};
 
 /// How far an export is.

@@ -1,39 +1,24 @@
 //! The forms that hold a clip or a lesson whole, as one file or a few: which files there will be, and writing each of them
 //! whole or not at all. What is there and still right is kept.
 
-mod base64;
-mod epub;
-mod fewer;
-mod flac;
-mod html;
-mod layers;
-mod lottie;
-mod mouths;
 mod moving;
-mod packed;
-mod ratios;
-mod shapes;
-mod smil;
-mod sound;
-mod svg_marks;
-mod zip;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::asked::within;
-use super::parts::{self, Parts};
 use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
 use super::run::elsewhere;
-use super::{Entry, Format, Ledger, Progress, Report, Request, Watch, said};
+use super::{Entry, Format, Ledger, Progress, Report, Request};
 use crate::disk::{Message, Result, read_old, write_whole};
+use crate::forms::parts::{self, Parts};
+use crate::forms::sound::Encoded;
+use crate::forms::{File, Watch, epub, html, layers, lottie, mouths, ratios, said, shapes, smil, sound, with_ending};
 use crate::media::Ffmpeg;
 use crate::project::{Clip, Lesson, Output};
-use crate::render::Escaped;
 use crate::script::System;
 use crate::timing::MOHO_FPS;
-use sound::Encoded;
 
 /// What a file is called that all clips are in.
 pub(super) const TOGETHER: &str = "lesson";
@@ -73,12 +58,6 @@ impl Report {
         }
         self
     }
-}
-
-/// A file that is ready.
-struct File {
-    path: PathBuf,
-    bytes: Vec<u8>,
 }
 
 /// The whole files of an export, clip by clip and then the lesson's. Nothing is written yet.
@@ -407,17 +386,4 @@ impl<'a> Workshop<'a> {
         }
         if said.is_empty() { "A face moves.".to_owned() } else { format!("A face says: {said}") }
     }
-}
-
-/// `OUT/CLIP` with an ending; a clip's name may hold points of its own.
-fn with_ending(base: &Path, ending: &str) -> PathBuf {
-    let mut name = base.file_name().unwrap_or_default().to_owned();
-    name.push(".");
-    name.push(ending);
-    base.with_file_name(name)
-}
-
-/// Text safe inside elements and quoted attributes of XML and HTML.
-fn escaped(text: &str) -> String {
-    Escaped(text).to_string()
 }
