@@ -173,7 +173,7 @@ impl<'m> Fitter<'m> {
     }
 
     /// Finds the shape in the frame after one with this fit: begins with its points at the finest level, and at the
-    /// coarsest where that fails. What moves by less than a fit trembles is held: see [`steady`](super::steady).
+    /// coarsest where that fails. What moves by less than a fit trembles is held (`steady`).
     #[must_use]
     pub fn follow(&mut self, grey: &Grey, before: &Fit) -> Fit {
         let mut fit = self.fit(grey, Start::Near(&before.ended));

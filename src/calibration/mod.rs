@@ -14,6 +14,7 @@ mod files;
 mod finding;
 mod inputs;
 mod kept;
+mod known;
 mod marks;
 mod movements;
 mod moves;

@@ -1,7 +1,7 @@
 //! The person's own model: trained on the shots, and on what the rig makes of the neutral one. A video has speech,
 //! blinks and glances that seven shots of emotions do not have.
 
-use super::calibrate::{Ground, Known};
+use super::known::{Ground, Known};
 use super::warped::bent;
 use crate::aam::{Kind, Model, Options};
 use crate::disk::Result;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::calibrate::Known;
+use super::known::Known;
 use super::{Calibration, Source};
 use crate::aam::{Fitter, Model, Start};
 use crate::face::FeaturePoint as P;

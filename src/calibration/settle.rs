@@ -1,7 +1,7 @@
 //! Found points settle where the person's face looks as it does at rest round each of them.
 
-use super::calibrate::{Ground, Known};
 use super::closer::{Flesh, Laid};
+use super::known::{Ground, Known};
 use super::patches::{Patches, View};
 use super::warped::bent;
 use crate::face::Part;

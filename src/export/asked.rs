@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Component, Path};
+use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use super::manifest::{add_content, hex};
+use super::manifest::{add_content, hex, within};
 use super::plan::{checked_output, chosen_clips, frames_asked, out_folder, root_folder, texts_of};
 use super::whole::TOGETHER;
 use super::{Asked, ExportFault, Format, Request, wholes};
@@ -56,16 +56,6 @@ pub fn asked(lesson: &Lesson, request: &Request) -> Result<Vec<Asked>> {
     }
     check_names(&all, request.by_project && request.out.is_some())?;
     Ok(all)
-}
-
-/// A path as manifests have it: from their folder on, with `/` between its parts.
-pub(super) fn within(root: &Path, path: &Path) -> String {
-    let inside = path.strip_prefix(root).unwrap_or(path);
-    let parts = inside.components().filter_map(|part| match part {
-        Component::Normal(name) => Some(name.to_string_lossy()),
-        _ => None,
-    });
-    parts.collect::<Vec<_>>().join("/")
 }
 
 /// The lesson by its folder, as several are told apart that go into one place.

@@ -7,8 +7,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::Shard;
-use super::asked::within;
-use super::manifest::{Asked, Entry, Manifest};
+use super::manifest::{Asked, Entry, Manifest, within};
 use super::merge::parts_in;
 use crate::disk::{self, Fault, Message, Result};
 

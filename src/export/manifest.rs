@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -236,7 +236,7 @@ impl Manifest {
         read.part().map_err(|f| damaged(f.what().to_owned()))?;
         let leads_out = |p: &str| {
             let parts = Path::new(p).components();
-            p.is_empty() || parts.into_iter().any(|c| !matches!(c, std::path::Component::Normal(_)))
+            p.is_empty() || parts.into_iter().any(|c| !matches!(c, Component::Normal(_)))
         };
         let named = read.files.iter().map(|e| &e.path).chain(read.clips.iter().flat_map(|c| &c.whole));
         let folders = read.clips.iter().map(|c| &c.folder).filter(|f| !f.is_empty());
@@ -294,4 +294,14 @@ impl Manifest {
 fn json_of<T: Serialize>(value: &T) -> Result<String> {
     serde_json::to_string(value)
         .map_err(|e| Fault::of(ExportFault::Manifest, format!("the manifest cannot be written: {e}")))
+}
+
+/// A path as manifests have it: from their folder on, with `/` between its parts.
+pub(super) fn within(root: &Path, path: &Path) -> String {
+    let inside = path.strip_prefix(root).unwrap_or(path);
+    let parts = inside.components().filter_map(|part| match part {
+        Component::Normal(name) => Some(name.to_string_lossy()),
+        _ => None,
+    });
+    parts.collect::<Vec<_>>().join("/")
 }

@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::asked::within;
 use super::digests::Digests;
 use super::ledger::put_aside;
+use super::manifest::within;
 use super::repeats::{Dedupe, Repeats, repeat};
 use super::{Entry, ExportFault, Format, Job};
 use crate::disk::{self, Fault, Result, Setting, message, read_old, replace, write_whole};

@@ -5,7 +5,7 @@
 //! part, so that the mouth does not flap. A closure never gives way: it is reached whole and lasts a frame at least.
 
 use super::Ease;
-use super::mouth::{MouthKey, Origin, PREPARE, RELEASE, Spoken, TRAVEL, corners_of_n};
+use super::mouth_key::{MouthKey, Origin, PREPARE, RELEASE, Spoken, TRAVEL, corners_of_n};
 use crate::pose::{MouthPose, MouthPreset, MouthShape};
 
 /// The longest way from vowel to vowel within a syllable: a glide such as a-u is one slow movement.

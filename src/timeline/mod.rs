@@ -9,13 +9,14 @@ mod blink;
 mod coarticulation;
 mod ease;
 mod mouth;
+mod mouth_key;
 mod ratios;
 mod score;
 mod score_file;
 
 pub use blink::Blink;
 pub use ease::Ease;
-pub use mouth::{MouthKey, Origin, Spoken};
+pub use mouth_key::{MouthKey, Origin, Spoken};
 pub use score::{Key, KeyValue, Marker, Range, Score, Track};
 
 use crate::pose::{Gaze, Head, Lids, MouthPose, MouthPreset, MouthShape, Pose, Ratios};

@@ -5,67 +5,15 @@
 
 use super::coarticulation::of_speech;
 use super::ease::Curve;
+use super::mouth_key::{MouthKey, Origin, PREPARE, RELEASE, TRAVEL, corners_of_n};
 use super::{Ease, KeyValue, Sources};
 use crate::pose::{MouthPose, MouthShape};
-
-/// The longest way from one shape to the next, in seconds. Lips need 60 to 120 ms between targets.
-pub(super) const TRAVEL: f64 = 0.10;
-
-/// Seconds before the first sound at which a resting mouth starts to move, and after the last at which it rests.
-pub(super) const PREPARE: f64 = 0.12;
-pub(super) const RELEASE: f64 = 0.18;
 
 /// An author's key makes the keys of speech this near give way, in seconds.
 const AUTHOR_REACH: f64 = 0.06;
 
 /// A moved key stands for the key of speech at that time, give or take this.
 const REPLACES_REACH: f64 = 0.02;
-
-/// A syllable or word with its mouth shapes, in time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Spoken {
-    /// Seconds.
-    pub start: f64,
-    /// Seconds.
-    pub end: f64,
-    /// Shapes in order, each with the share of the whole at which it starts: 0 for the first, growing, below 1.
-    pub shapes: Vec<(f64, MouthShape)>,
-    /// Whether the shapes' times were found in the sound and not shared out: lips are then closed until the next
-    /// shape starts, and open from there.
-    pub exact: bool,
-}
-
-/// Who set a key of the mouth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Origin {
-    /// A syllable (by its number).
-    Speech(usize),
-    /// The author.
-    Author,
-    /// The pause before, between or after what is said.
-    Pause,
-}
-
-/// A key frame of the mouth: a target and how long it is held.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MouthKey {
-    /// When it is reached, in seconds.
-    pub time: f64,
-    /// Until when it is held.
-    pub until: f64,
-    /// The shape; none at rest.
-    pub shape: Option<MouthShape>,
-    /// What the mouth does there.
-    pub pose: MouthPose,
-    /// Who set it.
-    pub origin: Origin,
-    pub(super) ease: Ease,
-}
-
-impl MouthKey {
-    pub(super) const REST: Self =
-        Self { time: 0.0, until: 0.0, shape: None, pose: MouthPose::REST, origin: Origin::Pause, ease: Ease::Smooth };
-}
 
 #[derive(Debug, Clone)]
 pub(super) struct MouthTrack {
@@ -181,18 +129,9 @@ fn of_track(row: &crate::ratios::TrackRow) -> MouthPose {
     }
 }
 
-/// *n* keeps the corners of the shape before it, the neutral ones at the start of an utterance (thesis 5.2.3).
-pub(super) fn corners_of_n(keys: &mut [MouthKey]) {
-    for i in 1..keys.len() {
-        if keys[i].shape == Some(MouthShape::N) && keys[i - 1].shape.is_some() {
-            keys[i].pose = keys[i].pose.with_corners_of(&keys[i - 1].pose);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::{Key, Score, Timeline};
+    use super::super::{Key, Score, Spoken, Timeline};
     use super::*;
     use crate::pose::MouthPreset;
     use proptest::prelude::*;

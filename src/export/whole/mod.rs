@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::asked::within;
+use super::manifest::within;
 use super::plan::{checked_output, chosen_clips, out_folder, plan, root_folder};
 use super::run::elsewhere;
 use super::{Entry, Format, Ledger, Progress, Report, Request};

@@ -4,6 +4,7 @@
 //! Every frame looks as it does elsewhere: nothing is left to the player to interpolate. Outlines of one shape have one
 //! number of points over all keys, as players want it; those with fewer repeat their last point, which draws nothing.
 
+mod keyed;
 mod ring;
 mod slots;
 
@@ -11,6 +12,7 @@ use std::fmt::Write;
 
 use super::base64::data_uri_of;
 use crate::forms::parts::{Mark, Move, OneItem, Part, Parts, Sheet};
+use keyed::keyed;
 use slots::Slot;
 
 /// What layers refer to, in JSON.
@@ -151,28 +153,4 @@ fn placed(moves: &[(u32, Move)], origin: [f64; 2], anchor: [f64; 2], percent: f6
         short(anchor[0]),
         short(anchor[1])
     )
-}
-
-/// A property whose values, each an array in JSON, are held from key to key; keys that change nothing are left out.
-fn keyed(keys: &[(u32, String)]) -> String {
-    let mut text = String::new();
-    let mut last: Option<&str> = None;
-    let mut count = 0;
-    for (frame, value) in keys {
-        if last != Some(value.as_str()) {
-            let _ = write!(text, "{}{{\"t\":{frame},\"h\":1,\"s\":{value}}}", if count > 0 { "," } else { "" });
-            (last, count) = (Some(value.as_str()), count + 1);
-        }
-    }
-    match (count, last) {
-        (0, _) | (_, None) => "{\"a\":0,\"k\":0}".to_owned(),
-        (1, Some(value)) => format!("{{\"a\":0,\"k\":{}}}", alone(value)),
-        _ => format!("{{\"a\":1,\"k\":[{text}]}}"),
-    }
-}
-
-/// A value that never changes: a shape and a single number stand for themselves, not in an array.
-fn alone(value: &str) -> &str {
-    let inner = value.strip_prefix('[').and_then(|v| v.strip_suffix(']')).unwrap_or(value);
-    if inner.starts_with('{') || !inner.contains(',') { inner } else { value }
 }

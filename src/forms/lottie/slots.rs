@@ -1,6 +1,6 @@
 //! The looks of an item side by side: its first outline over all keys, its second, and so on.
 
-use super::keyed;
+use super::keyed::keyed;
 use super::ring::Ring;
 use crate::drawing::Colour;
 use crate::forms::parts::{ABSENT, Mark, OneItem};

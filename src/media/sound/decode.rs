@@ -18,7 +18,7 @@ use super::iso::Index;
 use super::kind::Kind;
 use super::mix::Mixer;
 use super::mp3;
-use super::read::{RATES, Raw, broken, short_enough};
+use super::raw::{RATES, Raw, broken, short_enough};
 use crate::disk::{Fault, FileFault, Result};
 
 /// Samples that encoders of MP3 put before the sound where the file does not say it: LAME's 576, and the 529 by which

@@ -7,6 +7,7 @@ mod kind;
 mod mix;
 mod mp3;
 mod peaks;
+mod raw;
 mod read;
 mod resample;
 mod wav;

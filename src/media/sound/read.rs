@@ -4,27 +4,12 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::kind::{HEAD, Kind, kind};
-use super::mix::Mixed;
+use super::raw::{Raw, broken};
 use super::{Sound, decode, wav};
 use crate::disk::{Fault, FileFault, Result, open};
 
 /// The largest file that is read. Its samples lie in memory.
 const MAX_BYTES: u64 = 2 << 30;
-
-/// The longest recording that is read, in seconds: 4 hours.
-const MAX_SECONDS: u64 = 4 * 3600;
-
-/// Samples a second that are read: from the poorest telephone to the finest studio. Others are damaged headers.
-pub(super) const RATES: std::ops::RangeInclusive<u32> = 1_000..=768_000;
-
-pub(super) const SAVE_AS_WAV: &str = "save it as WAV, 16 bits, and try again";
-
-/// What comes out of a file.
-pub(super) struct Raw {
-    pub rate: u32,
-    pub mixed: Mixed,
-    pub warnings: Vec<String>,
-}
 
 /// Reads a file; faults come with its path.
 pub(super) fn read(path: &Path) -> Result<Sound> {
@@ -76,14 +61,6 @@ fn once(path: &Path, only: Option<usize>) -> Result<Raw> {
         .map_err(|fault| if fault.advice().is_empty() { fault.help(convert(path)) } else { fault })
 }
 
-/// Makes sure that it is no longer than what is read.
-pub(super) fn short_enough(frames: u64, rate: u32) -> Result<()> {
-    if frames > MAX_SECONDS * u64::from(rate) {
-        return Err(Fault::of(FileFault::TooLarge, "the recording is longer than 4 hours").help("cut it into clips"));
-    }
-    Ok(())
-}
-
 /// What to do with a file of another kind.
 fn convert(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
@@ -91,10 +68,4 @@ fn convert(path: &Path) -> String {
     let plain = name.chars().all(|c| c.is_alphanumeric() || "._-".contains(c)) && !name.starts_with('-');
     let name = if plain { name } else { format!("'{}'", name.replace('\'', "'\\''")) };
     format!("turn it into WAV, for example with `ffmpeg -i {name} {target}`")
-}
-
-/// A file that can be opened and not read.
-#[allow(clippy::needless_pass_by_value)] // as `map_err` gives it
-pub(super) fn broken(error: std::io::Error) -> Fault {
-    Fault::new(format!("cannot read it: {error}")).help("try again from a copy on another disk")
 }

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
 use super::mix::Mixer;
-use super::read::{Raw, broken};
+use super::raw::{Raw, broken};
 use super::wav_form::Form;
 use crate::disk::{Fault, FileFault, Result};
 
@@ -41,7 +41,7 @@ pub(super) fn read(file: &mut File, bytes: u64, only: Option<usize>) -> Result<O
         return Err(Fault::of(FileFault::Empty, "there is no sound in the file")
             .help("its part for samples is empty: record it again"));
     }
-    super::read::short_enough(frames, form.rate)?;
+    super::raw::short_enough(frames, form.rate)?;
     file.seek(SeekFrom::Start(start)).map_err(broken)?;
     let mut mixer = Mixer::new(usize::from(form.channels), only, frames as usize);
     form.samples(BufReader::with_capacity(1 << 16, file).take(frames * frame), |sample| mixer.push(sample))

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::read::{RATES, SAVE_AS_WAV};
+use super::raw::{RATES, SAVE_AS_WAV};
 use crate::disk::{Fault, FileFault, Result};
 
 /// How samples are written.

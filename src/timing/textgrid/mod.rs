@@ -11,6 +11,20 @@ mod read;
 mod tokens;
 mod write;
 
-pub(super) use read::parse;
 pub(super) use tokens::{is_header, is_short};
 pub(super) use write::write;
+
+use super::Timing;
+use crate::disk::Result;
+use read::Reader;
+use tokens::is_chronological;
+
+/// Reads each form from cleaned text.
+///
+/// # Errors
+/// With the line and what was found there.
+pub(super) fn parse(text: &str) -> Result<Timing> {
+    let chronological = is_chronological(text);
+    let mut reader = Reader::new(text, chronological)?;
+    if chronological { chronological::parse(&mut reader) } else { read::parse(&mut reader) }
+}

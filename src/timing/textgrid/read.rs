@@ -3,23 +3,17 @@
 
 use super::super::Timing;
 use super::super::layer::{Layer, checked};
-use super::chronological;
-use super::tokens::{Kind, Token, is_chronological, tokens};
+use super::tokens::{Kind, Token, tokens};
 use crate::disk::{Fault, FileFault, Result};
 
 /// The words that say which value follows, in the long form.
 const KEYS: [&str; 9] = ["xmin", "xmax", "size", "class", "name", "text", "number", "time", "mark"];
 
-/// Reads either form from cleaned text.
+/// Reads the long or short form.
 ///
 /// # Errors
 /// With the line and what was found there.
-pub(in crate::timing) fn parse(text: &str) -> Result<Timing> {
-    let mut reader = Reader { tokens: tokens(text)?, at: 0, short: false, last_line: text.lines().count().max(1) };
-    if is_chronological(text) {
-        reader.short = true;
-        return chronological::parse(&mut reader);
-    }
+pub(super) fn parse(reader: &mut Reader) -> Result<Timing> {
     reader.header()?;
     let end = reader.span("the file")?;
     let mut timing = Timing { duration: end, ..Timing::default() };
@@ -52,6 +46,11 @@ pub(super) struct Reader {
 }
 
 impl Reader {
+    /// Cuts cleaned text into its values; `short` where no words stand between them.
+    pub(super) fn new(text: &str, short: bool) -> Result<Self> {
+        Ok(Self { tokens: tokens(text)?, at: 0, short, last_line: text.lines().count().max(1) })
+    }
+
     fn header(&mut self) -> Result<()> {
         let help = "a TextGrid begins with `File type = \"ooTextFile\"` and `Object class = \"TextGrid\"`";
         for (begins, what) in [("ooTextFile", "the file's type"), ("TextGrid", "the object's class")] {
