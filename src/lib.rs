@@ -4,6 +4,21 @@
 //! from a record or from an author; all of it lies on a [`timeline`], the score. A [`pose`] is the score read at one
 //! instant, a figure turns a pose into a drawing, and a drawing is rendered and exported. The studio and the command
 //! line are two thin faces on the same rooms. A room uses only the rooms before it in this list.
+//!
+//! From a project to a frame as SVG and as PNG:
+//!
+//! ```
+//! # fn main() -> lianpu::disk::Result<()> {
+//! use lianpu::{project::Lesson, render};
+//!
+//! let lesson = Lesson::read("projects/nihao".as_ref())?;
+//! let drawing = lesson.drawing(0, 0.9)?;
+//! let svg = render::to_svg(&drawing, 640, 360);
+//! let png = render::to_png(&drawing, 640, 360)?;
+//! # assert!(svg.starts_with("<svg") && png.starts_with(b"\x89PNG"));
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod geometry;
 pub mod pose;

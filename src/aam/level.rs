@@ -9,7 +9,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ground::Channels;
 use super::shape::{Shapes, dot, similar};
-use super::simultaneous::Slopes;
 use super::table::Table;
 use crate::geometry::Point;
 
@@ -49,6 +48,15 @@ impl Texture {
             values: values.iter().map(|v| (v / f64::from(step)).round() as i16).collect(),
         }
     }
+}
+
+/// What is made ready for a level's simultaneous steps.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Slopes {
+    /// Of each look but the constant how it changes along x, then along y; as long as a reading.
+    pub looks: Vec<[Vec<f32>; 2]>,
+    /// How each direction moves each of the table's pixels, along x, then along y.
+    pub warps: Vec<[Vec<f32>; 2]>,
 }
 
 /// A level ready to fit.

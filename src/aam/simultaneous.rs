@@ -7,15 +7,6 @@ use nalgebra::{DMatrix, DVector};
 use super::level::Level;
 use super::sums::{products, square};
 
-/// What is made ready for a level's simultaneous steps.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Slopes {
-    /// Of each look but the constant how it changes along x, then along y; as long as a reading.
-    pub looks: Vec<[Vec<f32>; 2]>,
-    /// How each direction moves each of the table's pixels, along x, then along y.
-    pub warps: Vec<[Vec<f32>; 2]>,
-}
-
 /// How far a shape may be from the mean before the picture must speak louder: the residuals of neighbouring pixels go
 /// together, so that there are this many times fewer than they seem.
 const ALIKE: f32 = 200.0;

@@ -14,7 +14,7 @@ use crate::face::find::find;
 use crate::geometry::{Point, Rect};
 use crate::photo::Grey;
 use crate::plot;
-use crate::render::{Painter, encode_png};
+use crate::render::to_png;
 
 /// Train, fit and look at active appearance models.
 #[derive(Debug, clap::Args)]
@@ -209,7 +209,6 @@ fn inspect(args: &Inspect, out: &mut dyn Write) -> Result<()> {
     let drawing = plot::model(&model);
     let scale = (1800.0 / drawing.view.width()).min(2.0);
     let size = [drawing.view.width(), drawing.view.height()].map(|v| (v * scale).round().max(16.0) as u32);
-    let picture = Painter::new(size[0], size[1])?.paint(&drawing);
-    write_output(&args.out, &encode_png(&picture, "")?)?;
+    write_output(&args.out, &to_png(&drawing, size[0], size[1])?)?;
     say(out, shown(&args.out))
 }

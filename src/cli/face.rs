@@ -16,7 +16,7 @@ use crate::photo::{Photo, Stages};
 use crate::plot;
 use crate::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
 use crate::project::{Lesson, LessonFace};
-use crate::render::{Painter, encode_png};
+use crate::render::to_png;
 
 /// Find the 72 points of a face and what else its cartoon needs.
 #[derive(Debug, clap::Args)]
@@ -213,7 +213,5 @@ fn write_png(path: &Path, drawing: &Drawing) -> Result<()> {
     let view = drawing.view;
     let scale = (WIDEST / view.width()).min(WIDEST * 3.0 / view.height()).min(2.0);
     let (width, height) = ((view.width() * scale).round() as u32, (view.height() * scale).round() as u32);
-    let mut painter = Painter::new(width.max(16), height.max(16))?;
-    let picture = painter.paint(drawing);
-    write_output(path, &encode_png(&picture, "")?)
+    write_output(path, &to_png(drawing, width.max(16), height.max(16))?)
 }

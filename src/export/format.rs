@@ -111,7 +111,7 @@ impl Format {
         matches!(self, Self::Svg | Self::Png)
     }
 
-    /// Whether it is text made of a clip's times, which a [`super::Job`] carries ready.
+    /// Whether it is text made of a clip's times, which a `Job` carries ready.
     #[must_use]
     pub const fn is_text(self) -> bool {
         matches!(self, Self::TextGrid | Self::Srt | Self::Vtt | Self::Poses)

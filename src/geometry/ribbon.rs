@@ -2,7 +2,7 @@
 //!
 //! The width is a third coordinate of the curve, so it runs continuously between the widths given at the control
 //! points and may touch 0 (SOURCES.md 1, "stroke width"). What is drawn is the union of the discs of diameter w(t)
-//! about P(t); [`outline`](super::outline) gives its outline.
+//! about P(t); `outline` gives its outline.
 
 use kurbo::Point;
 

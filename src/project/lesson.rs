@@ -10,6 +10,7 @@ use super::manifest::{ClipEntry, MANIFEST, Manifest};
 use super::open::refusal;
 use super::{Change, Clip, LessonFace, ProjectFault};
 use crate::disk::{self, Fault, HeldFolder, Lock, Message, Result, Sums, confine, is_temporary, suggestion};
+use crate::drawing::Drawing;
 use crate::figure::Figure;
 use crate::pose::MouthPreset;
 use crate::timeline::Timeline;
@@ -186,6 +187,17 @@ impl Lesson {
     pub fn figure_of(&self, clip: &ClipEntry) -> Result<Figure> {
         let face = self.manifest.face_of(clip).and_then(|e| self.faces.iter().find(|f| f.entry.name == e.name));
         figures::figure(&self.root, face)
+    }
+
+    /// A clip's figure at a time in seconds.
+    ///
+    /// # Errors
+    /// As [`Self::figure_of`], and when there is no clip of that number.
+    pub fn drawing(&self, clip: usize, time: f64) -> Result<Drawing> {
+        let entry = self.clips.get(clip).map(|c| &c.entry);
+        let entry =
+            entry.ok_or_else(|| Fault::of(ProjectFault::NoSuchClip, format!("there is no clip number {clip}")))?;
+        Ok(self.figure_of(entry)?.draw(&self.timeline(clip, None).pose(time)))
     }
 
     /// The figure of a face by its name; without one of the first face, and the line face of a lesson without faces.

@@ -16,6 +16,7 @@ mod piece;
 mod pixels;
 mod png;
 mod print;
+mod prints;
 mod raster;
 mod recent;
 mod reel;
@@ -27,7 +28,7 @@ pub use clip::{ClipCoder, FrameCoder, Painted};
 pub use escaped::Escaped;
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::Painter;
-pub use png::{decode_key, encode_png};
+pub use png::{decode_key, encode_png, to_png};
 pub use reel::Reel;
 pub use svg::to_svg;
 

@@ -7,6 +7,7 @@ use super::canvas::{Area, Canvas, Pixel, pixel_of, straight};
 use super::leaf::{Leaf, Part, leaves, print_of};
 use super::paint::{Room, paint};
 use super::print::{ByPrint, Print};
+use super::prints::mark;
 use super::tiles::Grid;
 use super::{FontFile, MAX_SIDE};
 use crate::disk::{Fault, FileFault, Result};
@@ -163,12 +164,12 @@ impl Painter {
         }
         if self.still_print != Some(still_print) {
             let mut prints = self.grid.filled(background);
-            self.grid.mark(&mut prints, &still);
+            mark(self.grid, &mut prints, &still);
             self.still_prints = prints.into();
             self.still_print = Some(still_print);
         }
         let mut prints = self.still_prints.to_vec();
-        self.grid.mark(&mut prints, &moving);
+        mark(self.grid, &mut prints, &moving);
         Plan { background, still, moving, still_prints: Arc::clone(&self.still_prints), prints }
     }
 

@@ -1,7 +1,8 @@
 //! Pixels as PNG, with a key that says what they show, so that an interrupted export can tell what is done.
 
+use super::Painter;
 use crate::disk::{Fault, FileFault, Result};
-use crate::drawing::Picture;
+use crate::drawing::{Drawing, Picture};
 
 /// The keyword of the text chunk that carries the key.
 const KEYWORD: &[u8] = b"lianpu";
@@ -48,6 +49,14 @@ pub fn encode_png(picture: &Picture, key: &str) -> Result<Vec<u8>> {
     })();
     encoded.map_err(|e| Fault::of(FileFault::OutOfRange, format!("the picture cannot be written as PNG: {e}")))?;
     Ok(bytes)
+}
+
+/// A drawing as a PNG file of `width` × `height` pixels, without key.
+///
+/// # Errors
+/// When a picture cannot have that size.
+pub fn to_png(drawing: &Drawing, width: u32, height: u32) -> Result<Vec<u8>> {
+    encode_png(&Painter::new(width, height)?.paint(drawing), "")
 }
 
 /// The key of a PNG file that is whole: every chunk's checksum holds and the end is there. `None` for any other.

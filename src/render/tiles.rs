@@ -2,7 +2,6 @@
 
 use super::canvas::{Area, Pixel};
 use super::edges::{BITS, Edges};
-use super::leaf::{Leaf, Part, Shape};
 use super::print::Print;
 
 /// Pixels across and down of a tile, unless the picture ends. A row of tiles is a piece of a PNG file that stands by
@@ -56,7 +55,7 @@ impl Grid {
     }
 
     /// The print of a tile with nothing on it. Where the picture ends tiles are smaller.
-    fn start(self, tile: usize) -> Print {
+    pub(super) fn start(self, tile: usize) -> Print {
         let area = self.tile(tile);
         let mut print = Print::START;
         print.word((area.width() as u64) << 32 | area.height() as u64);
@@ -68,35 +67,6 @@ impl Grid {
         let mut prints: Vec<Print> = (0..self.len()).map(|tile| self.start(tile)).collect();
         prints.iter_mut().for_each(|print| print.word(u64::from(pixel)));
         prints
-    }
-
-    /// Puts parts on the tiles, back to front.
-    pub(super) fn mark(self, prints: &mut [Print], parts: &[Part]) {
-        let mut one = |leaf: &Leaf| {
-            for (tile, touch) in leaf.touched(self) {
-                let print = &mut prints[*tile as usize];
-                match (touch, &leaf.shape) {
-                    (Touch::Inside, Shape::Fill { pixel, .. }) => {
-                        // What is under an opaque colour cannot be seen.
-                        if pixel >> 24 == 255 {
-                            *print = self.start(*tile as usize);
-                        }
-                        print.word(u64::from(*pixel));
-                    }
-                    // The same thing is another one elsewhere.
-                    _ => {
-                        print.print(leaf.print);
-                        print.word(u64::from(*tile));
-                    }
-                }
-            }
-        };
-        for part in parts {
-            match part {
-                Part::One(leaf) => one(leaf),
-                Part::Kept(_, leaves) => leaves.iter().for_each(&mut one),
-            }
-        }
     }
 
     /// All tiles that a box touches.

@@ -11,6 +11,7 @@
 mod detect;
 mod english;
 mod han;
+mod label;
 mod marks;
 mod numbers;
 mod numerals;
@@ -32,11 +33,12 @@ mod written;
 mod zhuyin;
 
 pub use han::{is_han, readings_of};
+pub use label::{reading, readings};
 pub use marks::{in_latin, with_marks};
 pub use onsets::{OnsetPreset, onsets};
 pub use onsets_in_phones::onsets_in_phones;
 pub use phone::{Phone, shapes_of};
-pub use reading::{Reading, reading, readings};
+pub use reading::Reading;
 pub use say::syllables;
 pub use segment::segments;
 pub use sound::{FinalClass, InitialClass, Sound};

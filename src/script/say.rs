@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use super::detect::{self, Found, line_of};
-use super::reading::{self, Reading};
+use super::label;
+use super::reading::Reading;
 use super::romanised;
 use super::syllable::Syllable;
 use super::system::System;
@@ -149,8 +150,8 @@ impl Say<'_> {
             let declared = if self.system == System::Auto { self.found.romanisation } else { Some(self.system) };
             let system = declared.filter(|s| matches!(s, System::Hanyu | System::Tongyong)).or(self.found.romanisation);
             let both = match system {
-                Some(system) => reading::readings(label, system),
-                None => reading::readings(label, System::Auto),
+                Some(system) => label::readings(label, system),
+                None => label::readings(label, System::Auto),
             };
             // Where the two romanisations differ, the one the character can have is meant.
             let possible: Vec<Reading> = match self.phrase.last() {

@@ -5,8 +5,9 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use super::label;
 use super::phone::{self, Phone};
-use super::reading::{self, Reading};
+use super::reading::Reading;
 use super::sound::{FinalClass, InitialClass, Sound};
 use super::system::System;
 use super::tokens::Pause;
@@ -101,7 +102,7 @@ impl Syllable {
     /// Its reading; nothing for English.
     #[must_use]
     pub fn reading(&self) -> Option<Reading> {
-        (self.lang == Lang::Zh).then(|| reading::reading(&self.pinyin, System::Hanyu))?
+        (self.lang == Lang::Zh).then(|| label::reading(&self.pinyin, System::Hanyu))?
     }
 
     /// Its syllable without the tone; nothing for English.

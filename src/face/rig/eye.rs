@@ -1,6 +1,6 @@
 //! The eyes: lids as two cubics that never cross, an eyeball that looks, a blink (recipe part 5).
 
-use super::neutral::ES0;
+use super::landmarks::ES0;
 use super::{Expression, Proportions, within};
 use crate::face::{FeaturePoint as P, Points};
 use crate::geometry::{CubicBez, ParamCurve, Point, Vec2, lerp};

@@ -9,6 +9,7 @@
 mod deformed;
 mod emotions;
 mod eye;
+mod landmarks;
 mod lips;
 mod mouth;
 mod neutral;

@@ -1,7 +1,7 @@
 //! What is done to measured points before they move: sides brought together, eyes enlarged, brows at rest, mouth closed
 //! (recipe parts 0 and 7).
 
-use super::neutral::{BROWS, ES0, EYES};
+use super::landmarks::{BROWS, ES0, EYES};
 use super::{Proportions, within};
 use crate::face::{FeaturePoint as P, Part, Points};
 use crate::geometry::{Point, Vec2, lerp};

@@ -5,7 +5,7 @@ use crate::drawing::{Anchor, Colour, Drawing, Group, Item, Layer, fit};
 use crate::figure::Figure;
 use crate::geometry::{Point, Rect};
 use crate::pose::Pose;
-use crate::render::{Painter, encode_png, text_width, uncovered};
+use crate::render::{text_width, to_png, uncovered};
 use crate::script;
 
 /// Pixels of a cover.
@@ -63,5 +63,5 @@ pub(crate) fn poster(drawing: &Drawing, size: [u32; 2]) -> Result<Vec<u8>> {
 }
 
 fn paint(drawing: &Drawing, size: [u32; 2]) -> Result<Vec<u8>> {
-    encode_png(&Painter::new(size[0], size[1])?.paint(drawing), "")
+    to_png(drawing, size[0], size[1])
 }

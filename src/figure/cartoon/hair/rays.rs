@@ -1,6 +1,6 @@
 //! Hair seen from the middle of the brows: where each ray enters it for the last time and where it leaves it.
 
-use super::at;
+use super::super::at;
 use crate::geometry::{Point, Vec2};
 
 /// Degrees between two rays.

@@ -1,6 +1,6 @@
 //! What a mask of hair does not show: where a photo's edge has cut it off, and the tips that hair ends in.
 
-use super::at;
+use super::super::at;
 use crate::figure::cartoon::dice::Dice;
 use crate::geometry::{Point, Vec2};
 
