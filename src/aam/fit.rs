@@ -1,5 +1,6 @@
 //! The fit: from a start to the shape, coarse to fine.
 
+use super::fitted::Fit;
 use super::ground::Ground;
 use super::level::Level;
 use super::model::Model;
@@ -19,28 +20,6 @@ pub enum Start<'a> {
     Box(Rect),
     /// With this shape, near enough for the finest level alone: that of the frame before.
     Near(&'a [Point]),
-}
-
-/// A fit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
-    /// The points in pixels of the picture, in the order of the training annotation.
-    pub points: Vec<Point>,
-    /// The shape without its pose: along each mode, in widths of the mean shape (paper eq. 5).
-    pub p: Vec<f64>,
-    /// The pose: from the mean shape, whose width is 1, to pixels.
-    pub q: Similarity,
-    /// 0 to 1: from 0.5 on the fit can be used. Made so that fits with an error of more than 3 % of the pupil distance lie
-    /// below.
-    pub confidence: f64,
-    /// How much of the contrast under the shape is unlike anything the model has seen, 0 to 1.
-    pub residual: f64,
-    /// Steps at all levels together.
-    pub iterations: usize,
-    /// Whether the last step was shorter than a tenth of a pixel.
-    pub converged: bool,
-    /// The points before anything was held: where the next frame begins.
-    pub(super) ended: Vec<Point>,
 }
 
 /// A step is short when it moves no point by more than this, in pixels of the level.
@@ -68,6 +47,14 @@ const ROUND_A_START: [[f32; 4]; 14] = [
     [0.0, 0.3, 1.0, 0.0],
     [0.0, -0.3, 1.0, 0.0],
 ];
+
+impl Model {
+    /// Finds the shape in a picture; for more than one picture a [`Fitter`] keeps its memory.
+    #[must_use]
+    pub fn fit(&self, grey: &Grey, start: Start) -> Fit {
+        Fitter::new(self).fit(grey, start)
+    }
+}
 
 /// Fits, one after the other, in memory that stays.
 #[derive(Debug, Clone)]

@@ -15,6 +15,7 @@ mod appearance;
 mod detected;
 mod file;
 mod fit;
+mod fitted;
 mod ground;
 mod learn;
 mod level;
@@ -33,7 +34,8 @@ mod trust;
 
 pub use align::{Aligned, align};
 pub use annotation::Annotation;
-pub use fit::{Fit, Fitter, Start};
+pub use fit::{Fitter, Start};
+pub use fitted::Fit;
 pub use learn::{Kind, Options};
 pub use mesh::triangles;
 pub use model::Model;

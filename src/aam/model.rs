@@ -2,7 +2,6 @@
 
 use super::align::align;
 use super::detected::Detected;
-use super::fit::{Fit, Fitter, Start};
 use super::level::{Level, Look};
 use super::mesh::triangles;
 use super::shape::Shapes;
@@ -10,7 +9,6 @@ use super::skirt::{border, skirted};
 use super::trust::Trust;
 use crate::face::find::Found;
 use crate::geometry::{Point, Similarity};
-use crate::photo::Grey;
 
 /// A trained active appearance model, ready to fit.
 #[derive(Debug, Clone)]
@@ -108,11 +106,5 @@ impl Model {
         let mut points = self.detected.as_ref()?.start(&self.shapes, found)?;
         points.truncate(self.count());
         Some(points)
-    }
-
-    /// Finds the shape in a picture; for more than one picture a [`Fitter`] keeps its memory.
-    #[must_use]
-    pub fn fit(&self, grey: &Grey, start: Start) -> Fit {
-        Fitter::new(self).fit(grey, start)
     }
 }

@@ -6,7 +6,7 @@
 //! shape by little: where the shape as a whole changes, all its numbers are let go. Measured on 1241 frames of a man
 //! talking, 96 % of the depth of lips that close is kept, 92 % of blinks', and a third of the trembling is gone.
 
-use super::fit::Fit;
+use super::fitted::Fit;
 use super::shape::Shapes;
 use crate::geometry::{Point, Similarity};
 

@@ -1,8 +1,8 @@
 //! Roughly when each unit is said: the best way through the script in steps of 10 ms, with a beam. Its cost grows with
 //! the length of the recording, not with its square.
 
-use super::search::{Search, Section};
-use super::units::UNITS;
+use super::search::{Search, Section, Way};
+use super::units::{ANY, UNITS};
 
 /// Frames in a step.
 pub const STEP: usize = 2;
@@ -29,13 +29,26 @@ struct Step {
     ways: Vec<(usize, f32)>,
 }
 
+/// The best way through a section: within `width` frames of `near`, or of a rough way where there is none.
+pub(super) fn way(search: &Search<'_>, section: &Section, near: Option<&[(usize, usize)]>, width: usize) -> Way {
+    match near {
+        Some(near) => search.way(section, near, width),
+        None => search.way(section, &about(search, section), width),
+    }
+}
+
+/// A rough way through a section; everything one after the other where that is lost.
+pub(super) fn about(search: &Search<'_>, section: &Section) -> Vec<(usize, usize)> {
+    roughly(search, section).map_or_else(|| search.spread(section), |rough| rough.0)
+}
+
 /// For each link of the section the frames in which it begins and ends, roughly; a syllable that is not heard has no
 /// length. None where the beam lost the way.
-pub(super) fn roughly(
-    search: &Search<'_>,
-    rows: &dyn Fn(usize) -> usize,
-    section: &Section,
-) -> Option<(Vec<(usize, usize)>, f64)> {
+pub(super) fn roughly(search: &Search<'_>, section: &Section) -> Option<(Vec<(usize, usize)>, f64)> {
+    let rows = |link: usize| match search.chain.links[link].unit {
+        ANY => 1,
+        unit => search.rows[usize::from(unit)],
+    };
     let (chain, scores) = (search.chain, search.scores);
     let steps = steps(search, section);
     let count = (section.to - section.from) / STEP;

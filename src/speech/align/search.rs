@@ -5,7 +5,6 @@
 use std::ops::Range;
 
 use super::chain::Chain;
-use super::coarse;
 use super::features::FRAMES;
 use super::lasting::Lasting;
 use super::reach::{Band, NEVER, Reached, extend};
@@ -139,18 +138,14 @@ impl Search<'_> {
         Lasting::of(self.chain.links[link].unit, self.rate, link + 1 == self.chain.links.len())
     }
 
-    /// The best way through a section: `near` is a way it lies within `width` frames of; without it one is looked for.
+    /// The best way through a section that lies within `width` frames of the way `rough`.
     #[must_use]
-    pub fn way(&self, section: &Section, near: Option<&[(usize, usize)]>, width: usize) -> Way {
-        let rough = match near {
-            Some(links) => links.to_vec(),
-            None => self.roughly(section).map_or_else(|| self.spread(section), |r| r.0),
-        };
+    pub fn way(&self, section: &Section, rough: &[(usize, usize)], width: usize) -> Way {
         let mut widths = vec![width; rough.len()];
         // In a long recording some edge is always touched; all of it is not searched again and again for that.
         let tries = if section.to - section.from > LONG { 1 } else { TRIES };
         for _ in 0..tries {
-            let (way, touched) = self.within(section, &rough, &widths);
+            let (way, touched) = self.within(section, rough, &widths);
             if touched.is_empty() && way.score > NEVER {
                 return way;
             }
@@ -170,19 +165,9 @@ impl Search<'_> {
             }
             widths = wider;
         }
-        let (way, _) = self.within(section, &rough, &widths);
+        let (way, _) = self.within(section, rough, &widths);
         // Where nothing fits, at least everything is in order.
         if way.score > NEVER { way } else { self.evenly(section) }
-    }
-
-    /// A rough way, and how likely it is; none where it is lost.
-    #[must_use]
-    pub fn roughly(&self, section: &Section) -> Option<(Vec<(usize, usize)>, f64)> {
-        let rows = |link: usize| match self.chain.links[link].unit {
-            ANY => 1,
-            unit => self.rows[usize::from(unit)],
-        };
-        coarse::roughly(self, &rows, section)
     }
 
     fn evenly(&self, section: &Section) -> Way {
@@ -347,6 +332,7 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::coarse;
     use super::*;
     use crate::script::{System, syllables};
 
@@ -375,11 +361,8 @@ mod tests {
 
     fn way(chain: &Chain, spans: &[(usize, usize)], frames: usize) -> Way {
         let (scores, rows) = painted(chain, spans, frames);
-        Search { chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 }.way(
-            &whole(chain, frames),
-            None,
-            200,
-        )
+        let search = Search { chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
+        coarse::way(&search, &whole(chain, frames), None, 200)
     }
 
     #[test]
@@ -412,7 +395,7 @@ mod tests {
             scores[rows[usize::from(link.unit)]][345..470].fill(-3.0);
         }
         let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
-        let found = search.way(&whole(&chain, 800), None, 200);
+        let found = coarse::way(&search, &whole(&chain, 800), None, 200);
         assert_eq!(found.links, spans);
         assert_eq!(found.beside, [None, Some((345, 470)), None]);
     }
@@ -424,7 +407,7 @@ mod tests {
         let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
         for (from, to) in [(10, 80), (38, 42), (40, 41), (50, 50)] {
             let section = Section { from, to, full: true, ..whole(&chain, 100) };
-            let found = search.way(&section, None, 200);
+            let found = coarse::way(&search, &section, None, 200);
             assert_eq!((found.links[0].0, found.links[1].1), (from, to));
             assert_eq!(found.links[0].1, found.links[1].0);
         }
@@ -435,7 +418,7 @@ mod tests {
         let chain = Chain::of(&syllables(&"shuang1 ".repeat(40), System::Hanyu).unwrap());
         let (scores, rows) = painted(&chain, &[], 60);
         let search = Search { chain: &chain, scores: &scores, rows: &rows, rate: 1.0, costs: COSTS, beside: 0.0 };
-        let found = search.way(&whole(&chain, 60), None, 200);
+        let found = coarse::way(&search, &whole(&chain, 60), None, 200);
         assert!(
             found.links.windows(2).all(|w| w[0].1 <= w[1].0) && found.links.iter().all(|l| l.0 <= l.1 && l.1 <= 60)
         );

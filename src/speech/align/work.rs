@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::chain::Chain;
+use super::coarse;
 use super::confidence::{self, SIGNS};
 use super::features::{self, FRAMES, Features};
 use super::model::{Gaussian, Model, judge};
@@ -158,31 +159,30 @@ impl Work {
         };
         // How well this voice fits the script: by the pass before, or by a rough way that hardly leaves the script.
         search.beside = if first {
-            let roughly = |s: &Section| search.roughly(s).map_or_else(|| search.spread(s), |r| r.0);
-            let ways: Vec<Way> = self.sections.iter().map(|s| Way { links: roughly(s), ..Way::default() }).collect();
+            let rough = |s: &Section| Way { links: coarse::about(&search, s), ..Way::default() };
+            let ways: Vec<Way> = self.sections.iter().map(rough).collect();
             usual_fit(&search, &self.sections, &ways)
         } else {
             usual_fit(&search, &self.sections, &self.ways)
         };
         search.costs = COSTS;
         let rough: Vec<_> =
-            self.sections.iter().map(|s| if self.passes < 2 { search.roughly(s) } else { None }).collect();
+            self.sections.iter().map(|s| if self.passes < 2 { coarse::roughly(&search, s) } else { None }).collect();
         let mut ways: Vec<Way> = Vec::new();
         for (number, section) in self.sections.iter().enumerate() {
             // The first two passes look at it as a whole; the others about where the one before was.
             let fresh = rough[number].as_ref().map(|r| r.0.as_slice());
             let near = self.ways.get(number).map(|w| w.links.as_slice());
-            let mut way =
-                if first || fresh.is_none() { None } else { near.map(|n| search.way(section, Some(n), NARROW)) };
+            let mut way = if first || fresh.is_none() { None } else { near.map(|n| search.way(section, n, NARROW)) };
             let far =
                 |a: &[(usize, usize)], b: &[(usize, usize)]| a.iter().zip(b).any(|(a, b)| a.0.abs_diff(b.0) > NARROW);
             if first || fresh.zip(near).is_some_and(|(f, n)| far(f, n)) {
-                let other = search.way(section, fresh, if first { WIDE } else { NARROW });
+                let other = coarse::way(&search, section, fresh, if first { WIDE } else { NARROW });
                 if way.as_ref().is_none_or(|w| other.score > w.score) {
                     way = Some(other);
                 }
             }
-            ways.push(way.unwrap_or_else(|| search.way(section, near, NARROW)));
+            ways.push(way.unwrap_or_else(|| coarse::way(&search, section, near, NARROW)));
         }
         let snr = self.heard.snr;
         self.signs = self
@@ -198,8 +198,8 @@ impl Work {
             if self.pins.is_empty() && other > 0 {
                 let score = |chain: &Chain| {
                     let search = Search { chain, ..search };
-                    let near = search.roughly(&self.sections[0]).map(|r| r.0);
-                    search.way(&self.sections[0], near.as_deref(), NARROW).score
+                    let near = coarse::roughly(&search, &self.sections[0]).map(|r| r.0);
+                    coarse::way(&search, &self.sections[0], near.as_deref(), NARROW).score
                 };
                 self.sense = ((score(&self.chain) - score(&reversed)) / other as f64) as f32;
             }
