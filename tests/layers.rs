@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -128,4 +129,77 @@ fn only_the_disk_room_opens_files() {
         }
     }
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// Rooms whose files still import each other in circles.
+const KNOTS: [&str; 2] = ["project", "studio"];
+
+/// The modules of a room: each file's path without `.rs` and `mod`, with `/` between its parts, and its own code.
+fn modules(room: &str) -> BTreeMap<String, String> {
+    let mut files = Vec::new();
+    files_of(&root().join(room), &mut files);
+    let name = |file: &Path| {
+        let path = file.with_extension("").strip_prefix(root()).unwrap().to_str().unwrap().to_owned();
+        path.strip_suffix("/mod").map(str::to_owned).unwrap_or(path)
+    };
+    let own = |file: &Path| {
+        let text = fs::read_to_string(file).unwrap();
+        let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+        code.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join(" ")
+    };
+    files.iter().map(|file| (name(file), own(file))).collect()
+}
+
+/// The modules of a room that one of them names by `super::` or `crate::`. What a folder's own file names again is not
+/// followed.
+fn named(module: &str, code: &str, all: &BTreeMap<String, String>) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for (start, _) in code.match_indices("super::").chain(code.match_indices("crate::")) {
+        if code[..start].ends_with("super::") {
+            continue;
+        }
+        let mut path = &code[start..];
+        let mut at = if path.starts_with("crate::") { "" } else { module };
+        while let Some(rest) = path.strip_prefix("super::") {
+            (path, at) = (rest, at.rsplit_once('/').map_or("", |parts| parts.0));
+        }
+        path = path.strip_prefix("crate::").unwrap_or(path);
+        // In braces several paths follow.
+        let group = path.strip_prefix('{').and_then(|p| p.split_once('}')).map(|p| p.0);
+        for item in group.map_or(vec![path], |g| g.split(',').collect()) {
+            let mut to = at.to_owned();
+            for part in item.trim().split("::") {
+                let word: String = part.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+                let next = if to.is_empty() { word } else { format!("{to}/{word}") };
+                if !all.contains_key(&next) {
+                    break;
+                }
+                to = next;
+            }
+            // A folder's own file stands above all its files.
+            let is_above = module == to || module.starts_with(&format!("{to}/")) || to.is_empty();
+            if !is_above && all.contains_key(&to) {
+                found.insert(to);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn no_files_of_a_room_import_each_other_in_a_circle() {
+    for room in rooms() {
+        let all = modules(&room);
+        let mut uses: BTreeMap<&String, BTreeSet<String>> =
+            all.iter().map(|(name, code)| (name, named(name, code, &all))).collect();
+        // Files that use none of those that are left stand in no circle.
+        while let Some(free) = uses.iter().find(|(_, to)| to.is_empty()).map(|(name, _)| (*name).clone()) {
+            uses.remove(&free);
+            for to in uses.values_mut() {
+                to.remove(&free);
+            }
+        }
+        let is_knot = KNOTS.contains(&room.as_str());
+        assert_eq!(!uses.is_empty(), is_knot, "`{room}`: files that stand in a circle or use those that do: {uses:#?}");
+    }
 }
