@@ -14,11 +14,11 @@ pub struct Fit {
     /// 0 to 1: from 0.5 on the fit can be used. Made so that fits with an error of more than 3 % of the pupil distance lie
     /// below.
     pub confidence: f64,
-    /// How much of the contrast under the shape is unlike anything the model has seen, 0 to 1.
+    /// Share of the contrast under the shape that the model cannot reproduce, 0 to 1.
     pub residual: f64,
     /// Steps at all levels together.
     pub iterations: usize,
-    /// Whether the last step was shorter than a tenth of a pixel.
+    /// True where the last step was shorter than a tenth of a pixel.
     pub converged: bool,
     /// The points before anything was held: where the next frame begins.
     pub(super) ended: Vec<Point>,

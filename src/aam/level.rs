@@ -50,12 +50,12 @@ impl Texture {
     }
 }
 
-/// What is made ready for a level's simultaneous steps.
+/// Image gradients and point motions of a level, computed once for its simultaneous steps.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Slopes {
-    /// Of each look but the constant how it changes along x, then along y; as long as a reading.
+    /// Derivatives along x, then along y, of each look but the constant; as long as a reading.
     pub looks: Vec<[Vec<f32>; 2]>,
-    /// How each direction moves each of the table's pixels, along x, then along y.
+    /// Motion of each of the table's pixels along each direction: x, then y.
     pub warps: Vec<[Vec<f32>; 2]>,
 }
 
