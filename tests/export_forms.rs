@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use lianpu::export::{Format, Ledger, Request, Shard, Share, Written, plan, run, wholes, write_wholes};
+use lianpu::export::{Aside, Format, Ledger, Request, Shard, Share, Written, plan, run, wholes, write_wholes};
 use lianpu::project::Lesson;
 use lianpu::render::Painter;
 use resvg::{tiny_skia, usvg};
@@ -32,7 +32,7 @@ fn export(lesson: &Lesson, out: &Path, change: impl FnOnce(&mut Request), format
     let mut request = Request { out: Some(out.into()), ..Request::new(formats.to_vec()) };
     change(&mut request);
     let go_on = AtomicBool::new(false);
-    run(&plan(lesson, &request).unwrap(), 1, &|_| {}, &go_on).unwrap();
+    run(&plan(lesson, &request).unwrap(), 1, &Aside::default(), &|_| {}, &go_on).unwrap();
     let all = wholes(lesson, &request).unwrap();
     let mut ledger = Ledger::open(out, Shard::WHOLE);
     write_wholes(lesson, &request, &all, &mut ledger, &|_, _| {}, &go_on).unwrap()

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer, Picture, Raster};
-use lianpu::export::{Dedupe, Format, Job, Report, Request, divide, plan, run};
+use lianpu::export::{Aside, Dedupe, Format, Job, Report, Request, divide, plan, run};
 use lianpu::geometry::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
 use lianpu::project::Lesson;
 use lianpu::render::{ClipCoder, Painter, decode_key};
@@ -25,7 +25,7 @@ fn request(out: &Path) -> Request {
 
 fn export(request: &Request, threads: usize) -> (Vec<Job>, Report) {
     let jobs = plan(&lesson(), request).unwrap();
-    let (report, _) = run(&jobs, threads, &|_| {}, &AtomicBool::new(false)).unwrap();
+    let (report, _) = run(&jobs, threads, &Aside::default(), &|_| {}, &AtomicBool::new(false)).unwrap();
     (jobs, report)
 }
 

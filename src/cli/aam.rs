@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::{Subcommand, ValueEnum};
 use serde_json::json;
 
+use super::output::spare;
 use super::output_fault;
 use super::print::say;
 use crate::aam::{Annotation, Fit, Fitter, Kind, Model, Options, Shot, Start};
-use crate::disk::{Fault, Result, printable_json, shown, write_output};
+use crate::disk::{self, Fault, Result, printable_json, shown, write_output};
 use crate::face::find::find;
 use crate::geometry::{Point, Rect};
 use crate::photo::Grey;
@@ -96,6 +97,8 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
 }
 
 fn train(args: &Train, out: &mut dyn Write) -> Result<()> {
+    let inputs = disk::list(&args.folder).unwrap_or_default();
+    spare(&args.out, &inputs.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
     let shots = Shot::read_folder(&args.folder)?;
     let pairs: Vec<(&Grey, &[Point])> = shots.iter().map(|s| (&s.grey, &s.points[..])).collect();
     let kind = match args.of {
@@ -205,6 +208,7 @@ fn inspect(args: &Inspect, out: &mut dyn Write) -> Result<()> {
             .help("give a file that ends in .png")
             .of_the_call());
     }
+    spare(&args.out, &[&args.model])?;
     let model = Model::read(&args.model)?;
     let drawing = plot::model(&model);
     let scale = (1800.0 / drawing.view.width()).min(2.0);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::output::spare;
 use super::output_fault;
 use super::print::{self, say};
 use super::times::{Row, json, seconds, table};
@@ -50,6 +51,10 @@ pub struct Args {
 /// # Errors
 /// When a file cannot be read or written, or a recording and its script cannot be brought together.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    if let Some(path) = &args.out {
+        let inputs: Vec<&Path> = [&args.speech, &args.script].into_iter().flatten().map(PathBuf::as_path).collect();
+        spare(path, &inputs)?;
+    }
     match (&args.project, &args.speech) {
         (Some(project), _) => in_lesson(project, args, out),
         (None, Some(speech)) if args.without_script => {
@@ -186,7 +191,9 @@ fn format_of(path: &Path) -> Result<Format> {
         (Some(format), _) => Ok(format),
         (None, None) => Ok(Format::TextGrid),
         (None, Some(ending)) => {
-            let known: Vec<&str> = Format::ALL.iter().map(|f| f.extension()).collect();
+            let mut known: Vec<&str> = Format::ALL.iter().map(|f| f.extension()).collect();
+            let mut told = std::collections::BTreeSet::new();
+            known.retain(|ending| told.insert(*ending));
             Err(Fault::new(format!("`{}` is the ending of no timing format", ending.to_string_lossy()))
                 .at(path)
                 .help(format!("endings: {}", known.join(", ")))

@@ -3,6 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
+use super::output::spare;
 use super::output_fault;
 use super::print;
 use crate::disk::{self, Fault, MAX_TEXT_BYTES, Result};
@@ -44,6 +45,11 @@ pub struct Args {
 /// Of the call: a format that is unknown or cannot hold this, a tier that is not there. Of the input: a file that
 /// cannot be read, or has nothing to write.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    if let Some(path) = &args.out {
+        let tracks = args.tracks.as_deref();
+        let inputs: Vec<&Path> = [Some(args.file.as_path()), tracks].into_iter().flatten().collect();
+        spare(path, &inputs)?;
+    }
     let bytes = disk::read_bytes(&args.file, MAX_TEXT_BYTES)?;
     match Kind::of(&bytes) {
         Kind::Ratios(kind) => return ratios(args, &bytes, kind, out),
@@ -141,7 +147,10 @@ fn ratios(args: &Args, bytes: &[u8], kind: Ratios, out: &mut dyn Write) -> Resul
         To::Csv | To::Json => {
             let text = if matches!(to, To::Json) { record.to_json() } else { record.to_csv() };
             match (&own, &args.tracks) {
-                (Some(tracks), Some(path)) => disk::write_output(path, tracks.to_csv().as_bytes())?,
+                (Some(tracks), Some(path)) => {
+                    spare(path, &[&args.file])?;
+                    disk::write_output(path, tracks.to_csv().as_bytes())?;
+                }
                 (Some(_), None) => print::note("eyes, mouth and head are left out; `--tracks FILE` writes them"),
                 (None, Some(_)) => {
                     return Err(Fault::new("the file has no eyes, mouth and head to write").at(&args.file));

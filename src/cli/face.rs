@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
+use super::output::spare;
 use super::print::say;
-use crate::disk::{Fault, Result, printable_json, write_output};
+use crate::disk::{Fault, Result, printable_json, shown, write_output};
 use crate::drawing::Drawing;
 use crate::face::{Anchors, Created, Face, FeaturePoint, How, create};
 use crate::figure::Cartoon;
@@ -48,6 +49,8 @@ pub struct Args {
 /// Finds the face and prints what was found.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     for path in [&args.overlay, &args.sheet].into_iter().flatten() {
+        let inputs: Vec<&Path> = args.photo.iter().map(PathBuf::as_path).collect();
+        spare(path, &inputs)?;
         if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("png")) {
             return Err(Fault::new(format!("`{}` does not end in .png", path.display()))
                 .help("give a file that ends in .png")
@@ -64,7 +67,6 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let anchors = anchors(&args.at)?;
     let (photo, created, said) = match (&args.photo, &args.project) {
         (Some(path), _) => {
-            spare(path, &[&args.overlay, &args.sheet])?;
             let (photo, sha256) = Photo::read_with_sum(path)?;
             let created = create(&photo, &sha256, None, anchors.as_ref()).map_err(|f| f.at(path))?;
             (photo, created, None)
@@ -89,7 +91,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
         line(format!("note: {warning}"))?;
     }
     for path in [&args.overlay, &args.sheet].into_iter().flatten() {
-        line(path.display().to_string())?;
+        line(shown(path))?;
     }
     Ok(())
 }
@@ -118,12 +120,11 @@ fn of_project(project: &Path, args: &Args, anchors: Option<&Anchors>) -> Result<
     let number = lesson.face_named(args.face.as_deref()).map_err(Fault::of_the_call)?;
     let face = &lesson.faces[number];
     let path = face.photo.clone().ok_or_else(|| no_photo(face))?;
-    spare(&path, &[&args.overlay, &args.sheet])?;
     let (photo, sha256) = Photo::read_with_sum(&path)?;
     let created = create(&photo, &sha256, face.face.as_ref(), anchors).map_err(|f| f.at(&path))?;
     let done = if lesson.write_face(number, &created.face)? { "wrote" } else { "nothing has changed in" };
     let file = lesson.faces[number].path();
-    let said = format!("{done} {}: {}", file.display(), summary(&created.face));
+    let said = format!("{done} {}: {}", shown(&file), summary(&created.face));
     Ok((photo, created, Some(said)))
 }
 
@@ -164,20 +165,6 @@ fn as_json(created: &Created) -> serde_json::Value {
         "hair": face.hair.kind,
         "warnings": created.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
-}
-
-/// Refuses to draw over the photo that is drawn from.
-fn spare(photo: &Path, outputs: &[&Option<PathBuf>]) -> Result<()> {
-    let whole = photo.canonicalize().ok();
-    for output in outputs.iter().filter_map(|o| o.as_ref()) {
-        if whole.is_some() && output.canonicalize().ok() == whole {
-            return Err(Fault::new("the picture would be written over the photo")
-                .at(output)
-                .help("give another name")
-                .of_the_call());
-        }
-    }
-    Ok(())
 }
 
 /// Photo, stages, points, the cartoon neutral, with its mouth shapes, emotions and styles.

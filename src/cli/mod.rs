@@ -14,6 +14,7 @@ mod frames_done;
 mod live;
 mod merge;
 mod new;
+mod output;
 mod play;
 mod plot;
 mod print;

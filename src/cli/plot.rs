@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::output::spare;
 use super::print::{self, say};
 use crate::disk::{Fault, Result, read_bytes, shown, write_output};
 use crate::drawing::Drawing;
@@ -53,6 +54,10 @@ enum What {
 
 /// Draws the chart and prints where it is.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+    if let Some(path) = &args.out {
+        let inputs: Vec<&Path> = args.font.iter().map(PathBuf::as_path).collect();
+        spare(path, &inputs)?;
+    }
     let lesson = Lesson::read(&args.project)?;
     let index = lesson.clip_named(args.clip.as_deref()).map_err(Fault::of_the_call)?;
     let clip = &lesson.clips[index];

@@ -257,13 +257,14 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn cannot_save(path: &Path, error: std::io::Error) -> Fault {
-    Fault::io("cannot save it", path, error).help("is there room, and may you write there?")
+    Fault::writing("cannot save it", path, error)
 }
 
 fn foreign(path: &Path) -> Fault {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
     Fault::of(
         FileFault::Changed,
-        "the file was changed by something else since the lesson was opened, and is left as it is",
+        format!("{name} was changed by something else since the lesson was opened, and is left as it is"),
     )
     .at(path)
     .help("move it aside and save again to keep yours, or leave without saving and open the lesson again")

@@ -263,7 +263,7 @@ fn regular(file: File) -> io::Result<File> {
 }
 
 #[cfg(unix)]
-fn name_of(kind: fs::FileType) -> &'static str {
+pub(super) fn name_of(kind: fs::FileType) -> &'static str {
     use std::os::unix::fs::FileTypeExt;
     match kind {
         k if k.is_fifo() => "a named pipe",
@@ -273,7 +273,7 @@ fn name_of(kind: fs::FileType) -> &'static str {
 }
 
 #[cfg(not(unix))]
-fn name_of(_: fs::FileType) -> &'static str {
+pub(super) fn name_of(_: fs::FileType) -> &'static str {
     "a device"
 }
 

@@ -63,6 +63,20 @@ impl Fault {
         fault
     }
 
+    /// The same of a file or folder that could not be written, with what helps against the reason.
+    #[must_use]
+    pub fn writing(doing: &str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
+        use std::io::ErrorKind as Kind;
+        let help = match source.kind() {
+            Kind::StorageFull | Kind::QuotaExceeded => "make room there",
+            Kind::PermissionDenied | Kind::ReadOnlyFilesystem => "choose a place where you may write",
+            Kind::InvalidFilename => "give a shorter name",
+            Kind::AlreadyExists | Kind::NotADirectory => "a file has the name that its folder would need: give another",
+            _ => "is there room, and may you write there?",
+        };
+        Self::io(doing, path, source).help(help)
+    }
+
     /// The file it is in. A file given further in wins over one given further out.
     #[must_use]
     pub fn at(mut self, path: impl AsRef<Path>) -> Self {
@@ -102,6 +116,17 @@ impl Fault {
     #[must_use]
     pub fn without_place(mut self) -> Self {
         (self.0.path, self.0.line) = (None, None);
+        self
+    }
+
+    /// The same fault of a file below `from` as one of the same file below `to`.
+    #[must_use]
+    pub fn moved(mut self, from: &Path, to: &Path) -> Self {
+        if let Some(path) = &mut self.0.path
+            && let Ok(below) = path.strip_prefix(from)
+        {
+            *path = to.join(below);
+        }
         self
     }
 
@@ -163,14 +188,15 @@ impl Fault {
         if self.0.help.is_empty() { head.into() } else { self.0.help.clone().after(head + "\n  ") }
     }
 
-    /// What is wrong and what to do, in one line and without the place.
+    /// What is wrong, the name of the file it is in, and what to do, in one line.
     #[must_use]
     pub fn in_a_line(&self) -> Message {
-        if self.0.help.is_empty() {
-            self.0.what.as_str().into()
-        } else {
-            self.0.help.clone().after(format!("{}: ", self.0.what))
+        let mut head = self.0.what.clone();
+        let name = self.0.path.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy());
+        if let Some(name) = name.filter(|name| !head.contains(&**name)) {
+            head.push_str(&format!(" ({name})"));
         }
+        if self.0.help.is_empty() { head.into() } else { self.0.help.clone().after(format!("{head}: ")) }
     }
 
     /// The printed form, with every step of the advice as `word` puts it.

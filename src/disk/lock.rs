@@ -3,7 +3,7 @@
 
 use std::fs::{self, File, TryLockError};
 use std::io::{ErrorKind, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{Fault, Result, clean_line, door};
 
@@ -83,6 +83,25 @@ impl HeldFolder {
     pub fn is_at(&self, path: &Path) -> bool {
         self.folder.as_ref().is_none_or(|folder| is_file_at(folder, path))
     }
+
+    /// Where it is now, however often it was renamed; none where it was removed or the system does not tell (only Linux
+    /// does).
+    #[must_use]
+    pub fn place(&self) -> Option<PathBuf> {
+        let place = place_of(self.folder.as_ref()?)?;
+        self.is_at(&place).then_some(place)
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn place_of(file: &File) -> Option<PathBuf> {
+    use std::os::fd::AsRawFd;
+    fs::read_link(format!("/proc/self/fd/{}", file.as_raw_fd())).ok()
+}
+
+#[cfg(not(target_os = "linux"))]
+fn place_of(_file: &File) -> Option<PathBuf> {
+    None
 }
 
 /// Whether the file at `path` is this one.

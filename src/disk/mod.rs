@@ -38,7 +38,7 @@ pub(crate) use message::message;
 pub use message::{Message, Part};
 pub use nearest::{nearest, suggestion};
 pub use next_step::{NextStep, Setting, Task};
-pub use paths::{inside, plain_name};
+pub use paths::{inside, is_file_there, plain_name};
 pub use program::{Ended, Messages, Pipe, Program, Running};
 pub use read::{MAX_TEXT_BYTES, read_bytes, read_old, read_text};
 pub use record::commit_stamp;

@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::{Fault, FileFault, Result};
+use super::{Fault, FileFault, Result, door};
 
 /// The file that `relative` names inside `root`. Refuses absolute paths, `..`, and links that lead out, so that a
 /// manifest can open nothing outside its own folder.
@@ -34,6 +34,24 @@ pub fn inside(root: &Path, relative: &str) -> Result<PathBuf> {
             .at(&full)
             .help("copy the file into the project instead"))
     }
+}
+
+/// Whether a file is there. What is no file and has its name is told and not overlooked.
+///
+/// # Errors
+/// When it is a folder, a named pipe, a device, or a link that leads nowhere.
+pub fn is_file_there(path: &Path) -> Result<bool> {
+    let Ok(own) = path.symlink_metadata() else { return Ok(false) };
+    let what = match path.metadata() {
+        Ok(there) if there.is_file() => return Ok(true),
+        Ok(there) if there.is_dir() => "a folder",
+        Ok(there) => door::name_of(there.file_type()),
+        Err(_) if own.is_symlink() => "a link that leads nowhere",
+        Err(error) => return Err(Fault::io("cannot look at it", path, error)),
+    };
+    Err(Fault::of(FileFault::Mismatch, format!("it is {what}, where a file is needed"))
+        .at(path)
+        .help("move it away, or put the file in its place"))
 }
 
 /// Whether `name` can name a folder or file of ours: letters of any script, digits, `-`, `_` and `.`, not starting

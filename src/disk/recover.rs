@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::record::{DONE, Entry, RECORD, Record};
-use super::{Calls, Fault, Result, Sum};
+use super::{Calls, Fault, Result, Sum, is_file_there};
 
 /// The beginning of the names under which files are set aside.
 const ASIDE: &str = "unsaved-";
@@ -218,13 +218,16 @@ impl Pending {
     }
 
     /// The file to read in place of the one at `path`; none where there is none.
-    #[must_use]
-    pub fn at(&self, path: &Path) -> Option<PathBuf> {
+    ///
+    /// # Errors
+    /// As [`is_file_there`].
+    pub fn at(&self, path: &Path) -> Result<Option<PathBuf>> {
         let path = match self.files.get(path) {
-            Some(instead) => instead.as_deref()?,
+            Some(Some(instead)) => instead,
+            Some(None) => return Ok(None),
             None => path,
         };
-        path.is_file().then(|| path.to_owned())
+        Ok(is_file_there(path)?.then(|| path.to_owned()))
     }
 }
 

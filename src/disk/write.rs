@@ -18,13 +18,13 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    door::make_folder(folder).map_err(|e| Fault::io("cannot make the folder", folder, e))?;
+    door::make_folder(folder).map_err(|e| Fault::writing("cannot make the folder", folder, e))?;
     let saved = (|| {
         let mut file = temporary_in(folder, "")?;
         file.write_all(bytes)?;
         put_whole(file, path)
     })();
-    saved.map_err(|e| Fault::io("cannot save it", path, e).help("is there room, and may you write there?"))
+    saved.map_err(|e| Fault::writing("cannot save it", path, e))
 }
 
 /// Puts a temporary file of the same folder at `path` when it is on the disk: fsync, rename, fsync of the folder. A reader
@@ -55,7 +55,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
         file.write_all(bytes)?;
         settle(file.into_temp_path(), path)
     })();
-    saved.map_err(|e| Fault::io("cannot write it", path, e))
+    saved.map_err(|e| Fault::writing("cannot write it", path, e))
 }
 
 /// Writes what a command was asked to put at a path of its user's: a link is followed, and the file that it names is

@@ -155,7 +155,11 @@ impl Course<'_, '_> {
         for note in prepare(&mut lesson, &wanted, &tracking) {
             self.note(note)?;
         }
-        let exported = export(&lesson, request, ledger, progress, stop)?;
+        let exported = export(&lesson, request, ledger, progress, stop);
+        for note in ledger.aside().take_notes() {
+            self.note(note)?;
+        }
+        let exported = exported?;
         for note in &exported.notes {
             self.note(note.clone())?;
         }

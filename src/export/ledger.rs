@@ -5,6 +5,8 @@
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::Shard;
 use super::manifest::{Asked, Entry, Manifest, within};
@@ -19,6 +21,33 @@ pub struct Ledger {
     clips: Vec<Asked>,
     files: Vec<Entry>,
     before: Vec<Manifest>,
+    aside: Aside,
+}
+
+/// What an export has set aside, known also where it fails later.
+#[derive(Debug, Default)]
+pub struct Aside {
+    notes: Mutex<Vec<Message>>,
+    /// Files of others that had the names of frames.
+    pub(super) frames: AtomicU32,
+}
+
+impl Aside {
+    fn note(&self, note: String) {
+        self.notes.lock().unwrap_or_else(PoisonError::into_inner).push(note.into());
+    }
+
+    /// Takes the notes on what was set aside since they were last taken.
+    pub(super) fn take_notes(&self) -> Vec<Message> {
+        let mut notes = std::mem::take(&mut *self.notes.lock().unwrap_or_else(PoisonError::into_inner));
+        let count = self.frames.swap(0, Ordering::Relaxed);
+        let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+        notes.extend((count > 0).then(|| {
+            format!("{files} among the frames were there and of no export; they are kept with a ~ behind their names")
+                .into()
+        }));
+        notes
+    }
 }
 
 impl Ledger {
@@ -28,7 +57,7 @@ impl Ledger {
         let names = [draft(shard), Manifest::name(shard), Manifest::name(Shard::WHOLE)];
         // One that is damaged keeps nothing, and is written anew.
         let before = names.iter().filter_map(|name| Manifest::read(&folder.join(name)).ok()).collect();
-        Self { folder: folder.to_owned(), shard, clips: Vec::new(), files: Vec::new(), before }
+        Self { folder: folder.to_owned(), shard, clips: Vec::new(), files: Vec::new(), before, aside: Aside::default() }
     }
 
     /// Whether nothing was asked for or made.
@@ -47,6 +76,11 @@ impl Ledger {
         self.files.extend(files);
     }
 
+    /// What was set aside.
+    pub(super) const fn aside(&self) -> &Aside {
+        &self.aside
+    }
+
     /// The entry of a file that is there as an earlier run made it from the same.
     pub(super) fn kept(&self, path: &Path, key: &str) -> Option<Entry> {
         let name = within(&self.folder, path);
@@ -55,43 +89,45 @@ impl Ledger {
     }
 
     /// Before a file is written anew: where no earlier export wrote what is there, or somebody has changed it since, that is
-    /// renamed to the same name with a `~` that no other file has. Returns a note for the author. `new` is what will be written, where it is known.
-    pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<Option<Message>> {
+    /// renamed to the same name with a `~` that no other file has, and a note on it kept for the author. `new` is what will
+    /// be written, where it is known.
+    pub(super) fn set_aside(&self, path: &Path, new: Option<&[u8]>) -> Result<()> {
         let name = within(&self.folder, path);
         let parts = parts_in(&self.folder).unwrap_or_default();
         let earlier = self.before.iter().chain(parts.iter().map(|(_, part)| part));
         let wrote: Vec<&Entry> = earlier.filter_map(|m| m.entry(&name)).collect();
         // A folder in the way stays, and writing says so.
         if path.symlink_metadata().map_or(true, |there| there.is_dir()) {
-            return Ok(None);
+            return Ok(());
         }
         // What cannot be read is nothing that was exported.
         if let Ok(now) = Entry::read(&self.folder, name.clone()) {
             let is_new = new.is_some_and(|new| Entry::of(String::new(), new).sha256 == now.sha256);
             if is_new || wrote.iter().any(|w| w.sha256 == now.sha256) {
-                return Ok(None);
+                return Ok(());
             }
         }
         let aside = put_aside(path)?;
-        let note = match wrote.is_empty() {
+        self.aside.note(match wrote.is_empty() {
             false => format!(
                 "{name} was changed since it was exported; that is kept as {name}{aside}, and it is written anew"
             ),
             true => format!("{name} was there and is of no export; it is kept as {name}{aside}"),
-        };
-        Ok(Some(note.into()))
+        });
+        Ok(())
     }
 
     /// Before anything is written: what has the manifest's name and is none is set aside as a file is.
-    pub(super) fn set_manifest_aside(&self) -> Result<Option<Message>> {
+    pub(super) fn set_manifest_aside(&self) -> Result<()> {
         let name = Manifest::name(self.shard);
         let path = self.folder.join(&name);
         let is_there = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
         if !is_there || Manifest::read(&path).is_ok() {
-            return Ok(None);
+            return Ok(());
         }
         let aside = put_aside(&path)?;
-        Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}{aside}").into()))
+        self.aside.note(format!("{name} was there and is no manifest of an export; it is kept as {name}{aside}"));
+        Ok(())
     }
 
     /// Notes a file that was made from what `key` tells.

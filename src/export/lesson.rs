@@ -51,7 +51,7 @@ pub struct Exported {
 }
 
 /// Exports what is asked of a lesson. `tell` is called from any thread; `stop` ends it early, between two frames, and then
-/// the ledger is not to be closed.
+/// the ledger is not to be closed. What was set aside the ledger knows.
 ///
 /// # Errors
 /// When it cannot be planned or a file cannot be written. Every file that is there is whole.
@@ -71,15 +71,14 @@ pub fn export(
     // What a run that was killed has left half done.
     clear_temporaries(&out_folder(lesson, request));
     jobs.iter().for_each(|job| clear_temporaries(&job.folder));
-    let mut notes: Vec<Message> = ledger.set_manifest_aside()?.into_iter().collect();
+    ledger.set_manifest_aside()?;
     for (path, text) in jobs.iter().flat_map(|job| &job.texts) {
-        notes.extend(ledger.set_aside(path, Some(text.as_bytes()))?);
+        ledger.set_aside(path, Some(text.as_bytes()))?;
     }
-    let (report, files) = run(&jobs, request.jobs, &|p| tell(Step::Frames(p)), stop)?;
+    let (report, files) = run(&jobs, request.jobs, ledger.aside(), &|p| tell(Step::Frames(p)), stop)?;
     ledger.add(files);
-    notes.extend(note_on_aside(report.aside));
     let made = write_wholes(lesson, request, &whole, ledger, &|whole, p| tell(Step::Whole(whole, p)), stop)?;
-    let mut exported = Exported { report: report.with(&made), notes, ..Exported::default() };
+    let mut exported = Exported { report: report.with(&made), ..Exported::default() };
     exported.report.stopped |= made.len() < whole.len();
     if !request.frames.is_all() {
         exported.notes.extend(note_on_frames(request));
@@ -119,15 +118,6 @@ fn check_ratios(lesson: &Lesson, whole: &[Whole]) -> Result<()> {
         None => "put the file back, or leave the formats ratios and lpr out".into(),
     };
     Err(Fault::of(ExportFault::NoRatios, what).at(clip.folder.join("ratios.csv")).help(help))
-}
-
-/// Frames of somebody else's that had the names of the lesson's.
-fn note_on_aside(count: u32) -> Option<Message> {
-    let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
-    (count > 0).then(|| {
-        format!("{files} among the frames were there and of no export; they are kept with a ~ behind their names")
-            .into()
-    })
 }
 
 /// Some forms have no use for a part of a clip.

@@ -29,7 +29,7 @@ pub use farm::{Engine, Farm, MOST_TASKS};
 pub use fault::ExportFault;
 pub use format::Format;
 pub use frames::{FrameSet, Shard};
-pub use ledger::Ledger;
+pub use ledger::{Aside, Ledger};
 pub use lesson::{Exported, Place, Step, export};
 pub use manifest::{Asked, Entry, Manifest};
 pub use merge::{Merged, merge};

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use super::digests::Digests;
-use super::ledger::put_aside;
+use super::ledger::{Aside, put_aside};
 use super::manifest::within;
 use super::repeats::{Dedupe, Repeats, repeat};
 use super::{Entry, ExportFault, Format, Job};
@@ -32,8 +32,6 @@ pub struct Report {
     pub written: u32,
     /// Files that were there already and right.
     pub kept: u32,
-    /// Files of others that had the names of frames, and have a `~` behind them now.
-    pub aside: u32,
     /// Frames of an earlier, longer export that were removed.
     pub removed: u32,
     /// Bytes written.
@@ -42,7 +40,7 @@ pub struct Report {
     pub stopped: bool,
 }
 
-/// Runs jobs on `threads` threads (0: as many as there are processors). `progress` is called from any of them.
+/// Runs jobs on `threads` threads (0: as many as there are processors). What is in the way goes `aside`. `progress` is called from any of them.
 /// `stop` ends it early, between two frames. Returns also what there is now of what was asked for.
 ///
 /// # Errors
@@ -50,6 +48,7 @@ pub struct Report {
 pub fn run(
     jobs: &[Job],
     threads: usize,
+    aside: &Aside,
     progress: &(dyn Fn(Progress) + Sync),
     stop: &AtomicBool,
 ) -> Result<(Report, Vec<Entry>)> {
@@ -57,7 +56,7 @@ pub fn run(
         .num_threads(threads)
         .build()
         .map_err(|e| Fault::of(ExportFault::Threads, format!("cannot start the export's threads: {e}")))?;
-    let tally = Tally { of: jobs.iter().map(|j| j.frames.len() as u32).sum(), ..Tally::default() };
+    let tally = Tally::new(jobs.iter().map(|j| j.frames.len() as u32).sum(), aside);
     let mut report = Report::default();
     let mut files = Vec::new();
     for job in jobs {
@@ -81,24 +80,27 @@ pub fn run(
         files.extend(pool.install(|| write_frames(job, &tally, progress, stop))?);
     }
     report.written += tally.written.load(Ordering::Relaxed);
-    report.aside += tally.aside.load(Ordering::Relaxed);
     report.kept += tally.kept.load(Ordering::Relaxed);
     report.bytes += tally.bytes.load(Ordering::Relaxed);
     report.stopped = stop.load(Ordering::Relaxed) && tally.done.load(Ordering::Relaxed) < tally.of;
     Ok((report, files))
 }
 
-#[derive(Default)]
-struct Tally {
+struct Tally<'a> {
     done: AtomicU32,
     of: u32,
     written: AtomicU32,
     kept: AtomicU32,
-    aside: AtomicU32,
+    aside: &'a Aside,
     bytes: AtomicU64,
 }
 
-impl Tally {
+impl<'a> Tally<'a> {
+    fn new(of: u32, aside: &'a Aside) -> Self {
+        let none = || AtomicU32::new(0);
+        Self { done: none(), of, written: none(), kept: none(), aside, bytes: AtomicU64::new(0) }
+    }
+
     /// Sets aside what is where a frame goes and is no frame of this program. What was cut off while it was written, such
     /// as by a power cut, is nobody's work.
     fn make_room(&self, path: &Path) -> Result<()> {
@@ -106,7 +108,7 @@ impl Tally {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         if is_taken && !is_our_own(path, extension) && !is_cut_off(path, extension) {
             put_aside(path)?;
-            self.aside.fetch_add(1, Ordering::Relaxed);
+            self.aside.frames.fetch_add(1, Ordering::Relaxed);
         }
         Ok(())
     }
@@ -166,7 +168,7 @@ impl Job {
 /// Writes the frames of a job: each thread its own stretch, for neighbours have most in common.
 fn write_frames(
     job: &Job,
-    tally: &Tally,
+    tally: &Tally<'_>,
     progress: &(dyn Fn(Progress) + Sync),
     stop: &AtomicBool,
 ) -> Result<Vec<Entry>> {
@@ -218,7 +220,12 @@ struct Desk<'a> {
 }
 
 /// Of frames that are equal the first is written, and then the others.
-fn write_pngs(job: &Job, tally: &Tally, progress: &(dyn Fn(Progress) + Sync), stop: &AtomicBool) -> Result<Vec<Entry>> {
+fn write_pngs(
+    job: &Job,
+    tally: &Tally<'_>,
+    progress: &(dyn Fn(Progress) + Sync),
+    stop: &AtomicBool,
+) -> Result<Vec<Entry>> {
     let pose = |frame| rounded(&job.timeline.pose(job.timeline.time_of(frame)));
     let frames = match job.dedupe {
         Dedupe::None => Repeats { first: job.frames.clone(), others: Vec::new() },

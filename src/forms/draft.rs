@@ -71,7 +71,7 @@ pub(crate) fn folder_fault(folder: &Path, error: std::io::Error) -> Fault {
 }
 
 pub(crate) fn write_fault(place: &Path, error: std::io::Error) -> Fault {
-    Fault::io("cannot write it", place, error).help("is there room, and may you write there?")
+    Fault::writing("cannot write it", place, error)
 }
 
 #[cfg(test)]

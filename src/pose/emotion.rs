@@ -77,10 +77,7 @@ impl FromStr for Emotion {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Self::ALL
-            .into_iter()
-            .find(|e| e.name() == text)
-            .ok_or_else(|| format!("`{text}` is none of the seven emotions"))
+        Self::ALL.into_iter().find(|e| e.name() == text).ok_or_else(|| format!("`{text}` is no emotion"))
     }
 }
 

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use super::open::unsaved_in;
+use super::open::Unsaved;
 use super::settled::read_settled;
 use super::{Clip, LessonFace, MANIFEST, Manifest, figures, quality};
 use crate::calibration::ShotFiles;
 use crate::disk::{Fault, Message, Pending, Task, message, read_bytes};
 use crate::face::{FeaturePoint, How};
 use crate::figure::Figure;
-use crate::photo::{MAX_PHOTO_BYTES, sha256};
+use crate::photo::{MAX_PHOTO_BYTES, Photo, sha256};
 use crate::script::Lang;
 use crate::timeline::KeyValue;
 
@@ -47,22 +47,14 @@ fn find(root: &Path, more: impl Fn(&Clip) -> Vec<Finding>) -> Vec<Finding> {
     match read_settled(root, |pending| of_files(root, &manifest, pending, &more)) {
         Ok((mut found, notes)) => {
             found.extend(notes.into_iter().map(Finding::Odd));
-            match unsaved_in(root) {
-                Ok(0) => {}
-                Ok(count) => found.push(Finding::Odd(unsaved_note(count))),
+            match Unsaved::of(root) {
+                Ok(unsaved) => found.extend(unsaved.note().map(Finding::Odd)),
                 Err(fault) => found.push(Finding::Wrong(fault)),
             }
             found
         }
         Err(fault) => vec![Finding::Wrong(fault)],
     }
-}
-
-/// The remark that an earlier session has left changes that are in no file.
-pub(super) fn unsaved_note(count: usize) -> Message {
-    let changes = counted(count, "unsaved change");
-    let open = format!("{changes} of an earlier session: open it in ");
-    message![open, Task::Open, " to bring them back, and save or discard them"]
 }
 
 fn of_files(
@@ -128,12 +120,13 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
             match &face.photo {
                 None => found.push(odd(&whose, "its photo is not there, so its points cannot be found again")),
                 Some(path) => match read_bytes(path, MAX_PHOTO_BYTES).map(|bytes| sha256(&bytes)) {
-                    Ok(sum) if sum != points.photo.sha256 => {
+                    Ok(sum) if sum != points.photo.sha256 && Photo::read(path).is_ok() => {
                         found.push(odd(
                             &whose,
                             message!["its points are of another photo: ", Task::FindFace, " finds them in this one"],
                         ));
                     }
+                    Ok(sum) if sum != points.photo.sha256 => found.extend(unreadable(path)),
                     Ok(_) => {}
                     Err(fault) => found.push(Finding::Wrong(fault)),
                 },
@@ -153,6 +146,10 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
         }
         None => {}
     }
+    if face.face.is_none() {
+        found.extend(face.photo.as_deref().and_then(unreadable));
+    }
+    found.extend(face.shots.iter().filter_map(|shot| unreadable(shot.photo.as_deref()?)));
     found.extend(of_shots(face));
     if let (false, Some(style)) = (is_cartoon, &face.entry.style) {
         found.push(odd(&whose, format!("line figures have no styles, `{style}` changes nothing")));
@@ -168,6 +165,11 @@ fn of_face(root: &Path, face: &LessonFace) -> Vec<Finding> {
         }
     }
     found
+}
+
+/// A photo that cannot be read.
+fn unreadable(path: &Path) -> Option<Finding> {
+    Photo::read(path).err().map(Finding::Wrong)
 }
 
 /// The shots of a face, and whether its calibration is of them.
@@ -225,12 +227,13 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
     let mut found = vec![Finding::Fine(format!("clip {name}: {}", parts.join(", ")))];
     let whose = format!("clip {name}: ");
     if clip.timing.guessed && !clip.syllables.is_empty() {
-        let guessed = "the syllables' times are guessed; ";
         found.push(odd(
             &whose,
             match clip.sound {
-                Some(_) => message![guessed, Task::Align, " finds them"],
-                None => message![guessed, "set them in ", Task::Open],
+                Some(_) => {
+                    message!["no times of its syllables are kept, each export finds them; ", Task::Align, " keeps them"]
+                }
+                None => message!["the syllables' times are guessed; set them in ", Task::Open],
             },
         ));
     }
@@ -239,7 +242,7 @@ fn of_clip(clip: &Clip) -> Vec<Finding> {
             true => "its ratios.csv is gone; ",
             false => "the face in its video was never followed; ",
         };
-        found.push(odd(&whose, message![what, Task::Track, " does that"]));
+        found.push(odd(&whose, message![what, Task::Track, " finds its ratios"]));
     }
     if clip.video.is_none() && clip.lost_its_record() {
         found.push(odd(&whose, "its ratios.csv is gone, and so is its video: its ratios are neutral"));

@@ -9,7 +9,9 @@ use super::manifest::ClipEntry;
 use super::save::sum_of;
 use super::times::{OWN_TIERS, of_shapes, phones_of};
 use super::{ProjectFault, video};
-use crate::disk::{Fault, FileFault, Message, Pending, Result, Sum, Task, inside, list, message, read_text};
+use crate::disk::{
+    Fault, FileFault, Message, Pending, Result, Sum, Task, inside, is_file_there, list, message, read_text,
+};
 use crate::media::Sound;
 use crate::pose::MouthPreset;
 use crate::ratios::{Record, Tracks};
@@ -53,6 +55,8 @@ pub struct Clip {
     pub(super) plain: Vec<Syllable>,
     /// The script as its file has it, or as the labels of the timing gave it.
     pub(super) kept_script: String,
+    /// Whether the labels of the times are the script, for want of another.
+    pub(super) labels_are_script: bool,
     /// Whether an edit has changed what was found in the video since it was read or written.
     pub(super) footage_changed: bool,
     /// Length of the sound in seconds, 0 without one.
@@ -113,7 +117,7 @@ impl Clip {
         }
         let file = |name: &str| -> Result<Option<PathBuf>> {
             let path = inside(root, &format!("clips/{}/{name}", entry.name))?;
-            Ok(pending.at(&path))
+            pending.at(&path)
         };
         let text = |name: &str| -> Result<Option<(PathBuf, String)>> {
             file(name)?.map(|path| read_text(&path).map(|text| (path, text))).transpose()
@@ -134,6 +138,7 @@ impl Clip {
             seen: Seen::default(),
             plain: Vec::new(),
             kept_script: String::new(),
+            labels_are_script: false,
             footage_changed: false,
             sound_seconds: 0.0,
             video_seconds: 0.0,
@@ -242,8 +247,14 @@ impl Clip {
             return false;
         }
         let all_set = self.score.pins.len() >= self.syllables.len();
-        let older = || self.score.aligned.is_some() && self.score.aligned != self.fingerprint();
+        // Without their script nobody can tell whether times are those of another one; they stay until asked for.
+        let older = || !self.labels_are_script && self.found_for_another();
         !all_set && (self.timing.guessed || older())
+    }
+
+    /// Whether its times were found in another sound or for another script.
+    pub(super) fn found_for_another(&self) -> bool {
+        self.score.aligned.is_some() && self.score.aligned != self.fingerprint()
     }
 
     /// The syllables' times, one for each.
@@ -343,9 +354,10 @@ fn sound_file(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
     let paths = list(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
     let is_sound = |p: &PathBuf| {
         let extension = p.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-        p.file_stem().is_some_and(|s| s == "speech") && SOUNDS.contains(&extension.as_str()) && p.is_file()
+        p.file_stem().is_some_and(|s| s == "speech") && SOUNDS.contains(&extension.as_str())
     };
     let found: Vec<PathBuf> = paths.into_iter().filter(is_sound).collect();
+    found.iter().try_for_each(|path| is_file_there(path).map(drop))?;
     let names: Vec<String> =
         found.iter().filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned())).collect();
     match (found.as_slice(), names.as_slice()) {

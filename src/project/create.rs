@@ -92,7 +92,117 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
             .at(root)
             .help("choose another name"));
     }
-    let has_clip = new.speech.is_some() || new.timing.is_some() || new.ratios.is_some() || new.video.is_some();
+    let has_clip = has_clip(new);
+    check_request(new)?;
+    let parent = match root.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let has_face = new.neutral.is_some() || new.video.is_some();
+    let figure = new.figure.as_deref().unwrap_or(if has_face { CARTOON } else { "line" });
+    if figure != CARTOON {
+        LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
+    } else if !has_face {
+        return Err(Fault::of(ProjectFault::Request, "a cartoon needs a photo")
+            .help(message!["give ", Setting::Neutral])
+            .of_the_call());
+    }
+    check_inputs(new)?;
+    // Before a folder is made: a photo in which no face is found leaves nothing behind.
+    let face = neutral(new)?;
+    let shots = new
+        .shots
+        .iter()
+        .map(|(e, path)| Ok((*e, Brought::read(path)?)))
+        .collect::<Result<Vec<(Emotion, Brought)>>>()?;
+    make_folder(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
+    clear_temporaries(parent);
+    let draft = tempfile::Builder::new()
+        .prefix(&temporary_prefix())
+        .tempdir_in(parent)
+        .map_err(|e| Fault::io("cannot make the lesson's folder", parent, e))?;
+    let clip = ClipEntry {
+        name: name.clone(),
+        face: None,
+        script_system: new.system.filter(|s| *s != System::Auto),
+        onsets: Default::default(),
+        take_of: None,
+        video_fps: new.video_fps.filter(|_| new.video.as_deref().is_some_and(Path::is_dir)),
+    };
+    let face_entry = FaceEntry {
+        name: FACE.into(),
+        figure: Some(figure.into()),
+        style: None,
+        mouths: Default::default(),
+        layers: Vec::new(),
+    };
+    let title = clean_line(new.title.as_deref().unwrap_or(&name), 200);
+    let entries = (title, face_entry, has_clip.then_some(clip));
+    let found = furnish(draft.path(), new, face.as_ref(), &shots, entries, go_on);
+    let (notes, calibration) = found.map_err(|fault| fault.moved(draft.path(), root))?;
+    if root.exists() {
+        std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
+    }
+    open_to_others(draft.path());
+    let made = draft.keep();
+    std::fs::rename(&made, root).map_err(|e| {
+        let _ = std::fs::remove_dir_all(&made);
+        Fault::io("cannot make the lesson's folder", root, e)
+    })?;
+    let warnings = face.map_or_else(Vec::new, |(_, created)| created.warnings);
+    Ok(Made { lesson: Lesson::read(root)?, warnings, notes, calibration })
+}
+
+/// Writes the files of a new lesson into its draft, with what is found in them; what there is to say of that.
+fn furnish(
+    draft: &Path,
+    new: &NewLesson,
+    face: Option<&(Brought, Created)>,
+    shots: &[(Emotion, Brought)],
+    entries: (String, FaceEntry, Option<ClipEntry>),
+    go_on: &mut dyn FnMut(usize, Option<usize>) -> bool,
+) -> Result<(Vec<Message>, Option<Quality>)> {
+    let (title, face_entry, clip) = entries;
+    let mut notes = Vec::new();
+    if let Some(clip) = &clip {
+        notes.extend(fill(draft, clip, new)?);
+    }
+    let faces = draft.join("faces").join(FACE);
+    if let Some((photo, created)) = face {
+        photo.write(&faces, Emotion::Neutral)?;
+        write_face(&faces, created)?;
+    }
+    for (emotion, shot) in shots {
+        shot.write(&faces, *emotion)?;
+    }
+    let manifest =
+        Manifest { title, faces: vec![face_entry], clips: clip.into_iter().collect(), output: Output::default() };
+    write_whole(&draft.join(MANIFEST), manifest.to_toml().as_bytes())?;
+    write_whole(&draft.join(".gitignore"), b"/.lianpu/\n/export/\n")?;
+    // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
+    // files, not the draft's.
+    let mut lesson = Lesson::read(draft).map_err(|f| of_inputs(f, new))?;
+    if new.script.is_some() && lesson.clips.iter().any(|c| c.syllables.is_empty()) {
+        let fault = Fault::of(FileFault::Empty, "there is nothing to say in the script")
+            .help("write what is said in the recording");
+        return Err(match &new.script {
+            Some(path) => fault.at(path),
+            None => fault,
+        });
+    }
+    notes.extend(find_times(&mut lesson)?);
+    let calibration = calibrate_shots(&lesson, new)?;
+    notes.extend(follow_faces(&mut lesson, go_on)?);
+    Ok((notes, calibration))
+}
+
+const fn has_clip(new: &NewLesson) -> bool {
+    new.speech.is_some() || new.timing.is_some() || new.ratios.is_some() || new.video.is_some()
+}
+
+/// Makes sure that what is given for a lesson goes together.
+fn check_request(new: &NewLesson) -> Result<()> {
+    let has_clip = has_clip(new);
     if !has_clip && new.neutral.is_none() {
         return Err(Fault::of(ProjectFault::Request, "a lesson needs a photo, a recording, times, ratios, or a video")
             .help(message![
@@ -129,93 +239,7 @@ pub fn create(root: &Path, new: &NewLesson, go_on: &mut dyn FnMut(usize, Option<
             .help(message!["give ", Setting::Speech, ", or leave ", Setting::Script, " out for now"])
             .of_the_call());
     }
-    let parent = match root.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let has_face = new.neutral.is_some() || new.video.is_some();
-    let figure = new.figure.as_deref().unwrap_or(if has_face { CARTOON } else { "line" });
-    if figure != CARTOON {
-        LineFigure::built_in(figure).map_err(Fault::of_the_call)?;
-    } else if !has_face {
-        return Err(Fault::of(ProjectFault::Request, "a cartoon needs a photo")
-            .help(message!["give ", Setting::Neutral])
-            .of_the_call());
-    }
-    check_inputs(new)?;
-    // Before a folder is made: a photo in which no face is found leaves nothing behind.
-    let face = neutral(new)?;
-    let shots = new
-        .shots
-        .iter()
-        .map(|(e, path)| Ok((*e, Brought::read(path)?)))
-        .collect::<Result<Vec<(Emotion, Brought)>>>()?;
-    make_folder(parent).map_err(|e| Fault::io("cannot make the folder", parent, e))?;
-    clear_temporaries(parent);
-    let draft = tempfile::Builder::new()
-        .prefix(&temporary_prefix())
-        .tempdir_in(parent)
-        .map_err(|e| Fault::io("cannot make the lesson's folder", parent, e))?;
-    let clip = ClipEntry {
-        name: name.clone(),
-        face: None,
-        script_system: new.system.filter(|s| *s != System::Auto),
-        onsets: Default::default(),
-        take_of: None,
-        video_fps: new.video_fps.filter(|_| new.video.as_deref().is_some_and(Path::is_dir)),
-    };
-    let mut notes = Vec::new();
-    if has_clip {
-        notes.extend(fill(draft.path(), &clip, new)?);
-    }
-    let faces = draft.path().join("faces").join(FACE);
-    if let Some((photo, created)) = &face {
-        photo.write(&faces, Emotion::Neutral)?;
-        write_face(&faces, created)?;
-    }
-    for (emotion, shot) in &shots {
-        shot.write(&faces, *emotion)?;
-    }
-    let manifest = Manifest {
-        title: clean_line(new.title.as_deref().unwrap_or(&name), 200),
-        faces: vec![FaceEntry {
-            name: FACE.into(),
-            figure: Some(figure.into()),
-            style: None,
-            mouths: Default::default(),
-            layers: Vec::new(),
-        }],
-        clips: if has_clip { vec![clip] } else { Vec::new() },
-        output: Output::default(),
-    };
-    write_whole(&draft.path().join(MANIFEST), manifest.to_toml().as_bytes())?;
-    write_whole(&draft.path().join(".gitignore"), b"/.lianpu/\n/export/\n")?;
-    // Read back as anyone would read it: a lesson that cannot be opened is not made. Faults name the author's own
-    // files, not the draft's.
-    let mut lesson = Lesson::read(draft.path()).map_err(|f| of_inputs(f, new))?;
-    if new.script.is_some() && lesson.clips.iter().any(|c| c.syllables.is_empty()) {
-        let fault = Fault::of(FileFault::Empty, "there is nothing to say in the script")
-            .help("write what is said in the recording");
-        return Err(match &new.script {
-            Some(path) => fault.at(path),
-            None => fault,
-        });
-    }
-    notes.extend(find_times(&mut lesson)?);
-    let calibration = calibrate_shots(&lesson, new)?;
-    notes.extend(follow_faces(&mut lesson, go_on)?);
-    drop(lesson);
-    if root.exists() {
-        std::fs::remove_dir(root).map_err(|e| Fault::io("cannot use the empty folder", root, e))?;
-    }
-    open_to_others(draft.path());
-    let made = draft.keep();
-    std::fs::rename(&made, root).map_err(|e| {
-        let _ = std::fs::remove_dir_all(&made);
-        Fault::io("cannot make the lesson's folder", root, e)
-    })?;
-    let warnings = face.map_or_else(Vec::new, |(_, created)| created.warnings);
-    Ok(Made { lesson: Lesson::read(root)?, warnings, notes, calibration })
+    Ok(())
 }
 
 /// Finds the times of a new lesson in its sound, and says what there is to say of them. A recording that cannot be

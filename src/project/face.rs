@@ -7,7 +7,7 @@ use super::manifest::FaceEntry;
 use super::save::sum_of;
 use super::shots::{FaceShot, shots_of};
 use crate::calibration::{CALIBRATION, CalibrationFile};
-use crate::disk::{Pending, Result, Sum, inside, read_text};
+use crate::disk::{Pending, Result, Sum, inside, is_file_there, read_text};
 use crate::face::{Face, create};
 use crate::photo::Photo;
 
@@ -51,18 +51,18 @@ impl LessonFace {
         let mut photo = None;
         for name in NEUTRAL {
             let path = inside(root, &format!("faces/{}/{name}", entry.name))?;
-            if photo.is_none() && path.is_file() {
+            if photo.is_none() && is_file_there(&path)? {
                 photo = Some(path);
             }
         }
         let path = inside(root, &format!("faces/{}/{FACE_FILE}", entry.name))?;
-        let (face, seen) = match pending.at(&path) {
+        let (face, seen) = match pending.at(&path)? {
             Some(file) => (Some(Face::parse(&read_text(&file)?).map_err(|f| f.at(&path))?), sum_of(&file)),
             None => (None, None),
         };
         let path = inside(root, &format!("faces/{}/{CALIBRATION}", entry.name))?;
         // A damaged calibration is made anew; it is no reason not to open a lesson.
-        let (calibration, damage) = match pending.at(&path).map(|file| CalibrationFile::read(&file)) {
+        let (calibration, damage) = match pending.at(&path)?.map(|file| CalibrationFile::read(&file)) {
             Some(Ok(file)) => (Some(Box::new(file)), None),
             Some(Err(fault)) => (None, Some(fault.what().to_owned())),
             None => (None, None),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::change::stale;
-use super::save::{RATIOS, TRACKS};
+use super::save::{RATIOS, TRACKS, is_gone};
 use super::{Change, Clip, Edit, Lesson, counted};
 use crate::disk::{Commit, NextStep, Result, Setting, Task, message};
 use crate::ratios::{Record, Tracks};
@@ -52,14 +52,14 @@ impl Clip {
         Ok(())
     }
 
-    /// Adds `ratios.csv` and `tracks.csv` where an edit has changed them, and the removal of what an undo has taken back.
+    /// Adds `ratios.csv` and `tracks.csv` where an edit has changed them or the file is gone, and the removal of what an undo has taken back.
     pub(super) fn stage_footage(&self, commit: &mut Commit) -> Result<()> {
-        if !self.footage_changed {
-            return Ok(());
-        }
         let Footage { ratios, tracks, .. } = self.footage();
         for (name, text, seen) in [(RATIOS, ratios, self.seen.ratios), (TRACKS, tracks, self.seen.tracks)] {
             let path = self.folder.join(name);
+            if !self.footage_changed && !is_gone(&path, seen) {
+                continue;
+            }
             match text {
                 Some(text) => commit.put(&path, text, seen)?,
                 None if seen.is_some() => commit.remove(&path, seen)?,

@@ -2,12 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::check::unsaved_note;
 use super::figures;
 use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
-use super::open::refusal;
+use super::open::{Unsaved, refusal};
 use super::{Change, Clip, LessonFace, ProjectFault};
 use crate::disk::{self, Fault, HeldFolder, Lock, Message, Result, Sums, confine, is_temporary, suggestion};
 use crate::drawing::Drawing;
@@ -22,6 +21,8 @@ pub struct Lesson {
     pub root: PathBuf,
     /// What it is called and has.
     pub manifest: Manifest,
+    /// The text of its `lianpu.toml`, which a save puts back where the file is gone.
+    pub(super) manifest_text: String,
     /// Its clips, in the manifest's order.
     pub clips: Vec<Clip>,
     /// Its faces, in the manifest's order.
@@ -32,8 +33,8 @@ pub struct Lesson {
     pub recovered: usize,
     /// How many did not fit the files any more; they are kept in `.lianpu/journal.lost`.
     pub lost: usize,
-    /// How many unsaved changes an earlier session has left, where the lesson was opened to be read: they are not in it.
-    pub unsaved: usize,
+    /// The unsaved changes of another session, where the lesson was opened to be read: they are not in it.
+    pub unsaved: Unsaved,
     /// What became of a save that was cut off, for the author to know.
     pub notes: Vec<Message>,
     pub(super) history: History,
@@ -49,8 +50,7 @@ impl Lesson {
     /// The notes on a save that was cut off, and on changes of an earlier session that are in no file.
     #[must_use]
     pub fn state_notes(&self) -> Vec<Message> {
-        let unsaved = (self.unsaved > 0).then(|| unsaved_note(self.unsaved));
-        self.notes.iter().cloned().chain(unsaved).collect()
+        self.notes.iter().cloned().chain(self.unsaved.note()).collect()
     }
 
     /// Makes a change, remembers it for undo, and notes it in the journal.

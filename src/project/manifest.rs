@@ -132,6 +132,11 @@ impl Manifest {
     pub fn read(root: &Path) -> Result<Self> {
         confine(root);
         let path = root.join(MANIFEST);
+        if !root.is_dir() {
+            return Err(Fault::of(ProjectFault::NoProject, "there is no such folder")
+                .at(root)
+                .help("give the folder that has a lianpu.toml"));
+        }
         if !path.is_file() {
             return Err(Fault::of(ProjectFault::NoProject, "there is no lesson here").at(&path).help(message![
                 "make one with ",

@@ -7,8 +7,11 @@ use std::time::Duration;
 use super::history::History;
 use super::journal::{JOURNAL, JOURNAL_BYTES, Journal};
 use super::settled::{LOCK, OWN_FOLDER, end_and_sweep, read_settled};
-use super::{Change, Clip, Lesson, LessonFace, MANIFEST, Manifest, ProjectFault};
-use crate::disk::{Calls, Commit, Fault, HeldFolder, Lock, Message, Pending, Result, Sums, SystemCalls, read_bytes};
+use super::{Change, Clip, Lesson, LessonFace, MANIFEST, Manifest, ProjectFault, counted};
+use crate::disk::{
+    Calls, Commit, Fault, HeldFolder, Lock, Message, Pending, Result, Sums, SystemCalls, Task, message, read_bytes,
+    read_text,
+};
 
 /// Where changes are kept that do not fit the files any more.
 const LOST: &str = "journal.lost";
@@ -21,7 +24,7 @@ impl Lesson {
     pub fn read(root: &Path) -> Result<Self> {
         let manifest = Manifest::read(root)?;
         let (lesson, notes) = read_settled(root, |pending| Self::of_files(root, &manifest, pending, &[]))?;
-        Ok(Self { notes, unsaved: unsaved_in(root)?, ..lesson? })
+        Ok(Self { notes, unsaved: Unsaved::of(root)?, ..lesson? })
     }
 
     /// Reads the files through the paths of `pending`. `left` are the changes of the journal, oldest first.
@@ -32,12 +35,13 @@ impl Lesson {
         Ok(Self {
             root: root.to_owned(),
             manifest: manifest.clone(),
+            manifest_text: read_text(&root.join(MANIFEST))?,
             clips,
             faces,
             read_only: Some("it was opened to be read".into()),
             recovered: 0,
             lost: 0,
-            unsaved: 0,
+            unsaved: Unsaved::default(),
             notes: Vec::new(),
             history: History::default(),
             journal: None,
@@ -71,7 +75,7 @@ impl Lesson {
             Ok(None) => elsewhere(&own.join(LOCK)),
             Err(_) => "its folder cannot be written to".into(),
         };
-        Ok(Self { read_only: Some(why), unsaved: 0, ..Self::read(root)? })
+        Ok(Self { read_only: Some(why), unsaved: Unsaved::default(), ..Self::read(root)? })
     }
 
     /// Opens a lesson whose lock was taken and whose last save is whole.
@@ -168,8 +172,34 @@ fn take_lock(path: &Path) -> Result<Option<Lock>> {
     Lock::take(path)
 }
 
-/// How many changes the journal of a lesson holds that nobody has open.
-pub(super) fn unsaved_in(root: &Path) -> Result<usize> {
-    let own = root.join(OWN_FOLDER);
-    if Lock::is_held(&own.join(LOCK)) { Ok(0) } else { Ok(Journal::left_in(&own.join(JOURNAL))?.len()) }
+/// Changes of a lesson that are in its journal and in none of its files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unsaved {
+    /// How many.
+    pub changes: usize,
+    /// Whether somebody has the lesson open, who may still save them.
+    pub is_open: bool,
+}
+
+impl Unsaved {
+    /// Those of the lesson in `root`.
+    pub(super) fn of(root: &Path) -> Result<Self> {
+        let own = root.join(OWN_FOLDER);
+        let changes = Journal::left_in(&own.join(JOURNAL))?.len();
+        Ok(Self { changes, is_open: changes > 0 && Lock::is_held(&own.join(LOCK)) })
+    }
+
+    /// The remark on them; none where there are none.
+    #[must_use]
+    pub fn note(self) -> Option<Message> {
+        if self.changes == 0 {
+            return None;
+        }
+        if self.is_open {
+            return Some("it is open in a studio with changes that are not saved, and so not in its files".into());
+        }
+        let changes = counted(self.changes, "unsaved change");
+        let open = format!("{changes} of an earlier session: open it in ");
+        Some(message![open, Task::Open, " to bring them back, and save or discard them"])
+    }
 }

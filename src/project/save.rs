@@ -1,6 +1,6 @@
 //! Saving: the files whose content differs are written, and the journal emptied, in one commit.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::journal::Journal;
 use super::open::{elsewhere, refusal};
@@ -38,6 +38,10 @@ impl Lesson {
         }
         for face in &self.faces {
             face.stage_all(commit)?;
+        }
+        let manifest = self.root.join(MANIFEST);
+        if !manifest.exists() && !self.manifest_text.is_empty() {
+            commit.put(&manifest, self.manifest_text.as_bytes(), None)?;
         }
         self.journal.as_ref().map_or(Ok(()), |journal| journal.empty_in(commit))
     }
@@ -83,13 +87,8 @@ impl Lesson {
 
     /// Makes sure that the lesson is still where it was opened, and that nobody else has it.
     pub(super) fn hold(&mut self) -> Result<()> {
-        if self.held.as_ref().is_some_and(|held| !held.is_at(&self.root)) {
-            return Err(Fault::of(
-                ProjectFault::Changed,
-                "the lesson's folder was moved or removed while it was open, so nothing is saved here",
-            )
-            .at(&self.root)
-            .help("open it where it is now: its unsaved changes are in its journal"));
+        if let Some(held) = self.held.as_ref().filter(|held| !held.is_at(&self.root)) {
+            return Err(self.is_elsewhere(held.place().as_deref()));
         }
         let path = self.root.join(OWN_FOLDER).join(LOCK);
         if self.lock.as_ref().is_none_or(|lock| lock.is_at(&path)) {
@@ -103,6 +102,26 @@ impl Lesson {
             }
             None => Err(refusal("saved", &elsewhere(&path))),
         }
+    }
+
+    /// The fault of a lesson whose folder is at `place` now, or nowhere that is known.
+    fn is_elsewhere(&self, place: Option<&Path>) -> Fault {
+        let changes = match (self.is_unsaved(), place) {
+            (true, Some(_)) => "; leave it and keep the changes: its journal has them, and they are back there",
+            _ => "",
+        };
+        let (what, help) = match place {
+            Some(place) => ("moved", format!("open it where it is now, {}{changes}", place.display())),
+            None => {
+                ("moved or removed", "open it where it is now; where it was removed, nothing of it can be kept".into())
+            }
+        };
+        Fault::of(
+            ProjectFault::Changed,
+            format!("the lesson's folder was {what} while it was open, so nothing is saved here"),
+        )
+        .at(&self.root)
+        .help(help)
     }
 
     /// Writes one face's `face.toml` and nothing else; whether it differed from what was there.
@@ -204,7 +223,7 @@ impl LessonFace {
     /// Adds `face.toml` where the face differs from the file's, and its removal where its points were taken back.
     fn stage(&self, commit: &mut Commit) -> Result<()> {
         match &self.face {
-            _ if self.face == self.written => Ok(()),
+            _ if self.face == self.written && !is_gone(&self.path(), self.seen) => Ok(()),
             Some(face) => commit.put(&self.path(), face.to_toml(), self.seen),
             // Only what this program wrote, or has read as it is.
             None if self.seen.is_some() => commit.remove(&self.path(), self.seen),
@@ -237,7 +256,7 @@ impl Clip {
             self.score.guessed = self.timing.guessed && self.score.pins.len() < self.syllables.len();
         }
         let has_times = (is_set || self.seen.timing.is_some()) && !self.timing.tiers.is_empty();
-        match self.script_to_write() {
+        match self.script_to_write().or_else(|| is_gone(&script, self.seen.script).then(|| self.script.clone())) {
             Some(text) if !text.is_empty() => commit.put(&script, text, self.seen.script)?,
             Some(_) if self.seen.script.is_some() => commit.remove(&script, self.seen.script)?,
             _ => {}
@@ -291,7 +310,12 @@ const SCORE: &str = "score.toml";
 pub(super) const RATIOS: &str = "ratios.csv";
 pub(super) const TRACKS: &str = "tracks.csv";
 
+/// Whether a file that was there when it was last read or written is there no more: a save writes it again.
+pub(super) fn is_gone(path: &Path, seen: Option<Sum>) -> bool {
+    seen.is_some() && !path.exists()
+}
+
 /// The sum of a file that was just read; none where it cannot be read any more.
-pub(super) fn sum_of(path: &std::path::Path) -> Option<Sum> {
+pub(super) fn sum_of(path: &Path) -> Option<Sum> {
     Sum::at(path).ok().flatten()
 }

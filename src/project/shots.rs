@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::save::sum_of;
+use super::save::{is_gone, sum_of};
 use super::{LessonFace, ProjectFault};
 use crate::calibration::{Binding, CalibrationFile, Marks, sum_of_face, sum_of_marks};
-use crate::disk::{Commit, Fault, Pending, Result, Sum, Sums, inside, read_text};
+use crate::disk::{Commit, Fault, Pending, Result, Sum, Sums, inside, is_file_there, read_text};
 use crate::face::{Face, FeaturePoint, Placed};
 use crate::pose::Emotion;
 
@@ -49,7 +49,7 @@ impl FaceShot {
     pub(super) fn stage(&self, folder: &Path, emotion: Emotion, commit: &mut Commit) -> Result<()> {
         let path = Self::file(folder, emotion);
         match &self.marks {
-            _ if self.marks == self.written => Ok(()),
+            _ if self.marks == self.written && !is_gone(&path, self.seen) => Ok(()),
             Some(marks) => commit.put(&path, marks.to_toml(), self.seen),
             None if self.seen.is_some() => commit.remove(&path, self.seen),
             None => Ok(()),
@@ -70,7 +70,7 @@ pub(super) fn shots_of(root: &Path, name: &str, pending: &Pending) -> Result<[Fa
     let first = |stem: &str, endings: &[&str]| -> Result<Option<PathBuf>> {
         for ending in endings {
             let path = inside(root, &format!("faces/{name}/{stem}.{ending}"))?;
-            if path.is_file() {
+            if is_file_there(&path)? {
                 return Ok(Some(path));
             }
         }
@@ -89,7 +89,7 @@ pub(super) fn shots_of(root: &Path, name: &str, pending: &Pending) -> Result<[Fa
             continue;
         }
         let path = inside(root, &format!("faces/{name}/{emotion}.toml"))?;
-        if let Some(file) = pending.at(&path) {
+        if let Some(file) = pending.at(&path)? {
             shot.marks = Some(Marks::parse(&read_text(&file)?).map_err(|f| f.at(&path))?);
             shot.written.clone_from(&shot.marks);
             shot.seen = sum_of(&file);

@@ -30,11 +30,16 @@ impl Clip {
             self.guess();
             return Ok(());
         };
-        if self.plain.is_empty() && self.script.is_empty() {
+        if self.plain.is_empty() && self.script.trim().is_empty() {
             // Times without a script: the labels are the script.
             let labels: Vec<&str> = tier.spoken().map(|i| i.label.as_str()).collect();
             self.script = labels.join(" ");
             self.plain = script::syllables(&self.script, self.entry.script_system.unwrap_or(System::Auto))?;
+            self.labels_are_script = true;
+            if self.found_for_another() {
+                let lacks = if self.seen.script.is_some() { "its script.txt is empty" } else { "it has no script.txt" };
+                self.warnings.push(format!("{lacks}: its script is what its times say, and they stay").into());
+            }
         }
         let mut syllables = Tier::new("syllables");
         match timing::match_labels(&self.plain, &tier, label_fits, |s| s.text.clone()) {
@@ -108,7 +113,7 @@ impl Clip {
     pub(super) fn is_of_an_older_script(&self, timing: &Timing) -> bool {
         let Some(tier) = timing.syllables().filter(|_| !self.plain.is_empty()) else { return false };
         let parts = timing::first_parting(&self.plain, tier, label_fits).is_some();
-        parts && self.score.aligned.is_some() && self.score.aligned != self.fingerprint()
+        parts && self.found_for_another()
     }
 
     /// Takes times that were found for an older script: what a hand has set stays where the script still has it, the rest

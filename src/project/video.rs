@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::disk::{Fault, FileFault, Result, inside, list};
+use crate::disk::{Fault, FileFault, Result, inside, is_file_there, list};
 
 /// The folder of a video that is pictures.
 pub(super) const FRAMES: &str = "frames";
@@ -24,9 +24,10 @@ pub(super) fn of(root: &Path, folder: &Path) -> Result<Option<PathBuf>> {
     let paths = list(folder).map_err(|e| Fault::io("cannot list the folder", folder, e))?;
     let is_video = |p: &PathBuf| {
         let extension = p.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-        p.file_stem().is_some_and(|s| s == "video") && VIDEOS.contains(&extension.as_str()) && p.is_file()
+        p.file_stem().is_some_and(|s| s == "video") && VIDEOS.contains(&extension.as_str())
     };
     let found: Vec<PathBuf> = paths.into_iter().filter(is_video).collect();
+    found.iter().try_for_each(|path| is_file_there(path).map(drop))?;
     match found.as_slice() {
         [] => Ok(None),
         [one] => {

@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::open::refusal;
 use super::{AlignJob, Clip, Followed, Lesson, Method, ProjectFault, TrackJob, Tracking};
 use crate::calibration::Kept;
 use crate::disk::{Fault, Message, NextStep, Result, Setting, Task, message};
@@ -52,9 +53,7 @@ impl Lesson {
     pub fn open_to_write(root: &Path, what: &str) -> Result<Self> {
         let lesson = Self::open(root)?;
         if let Some(why) = &lesson.read_only {
-            return Err(Fault::of(ProjectFault::ReadOnly, format!("{what} cannot be kept: {why}"))
-                .at(root)
-                .help("open it where it can be written"));
+            return Err(refusal(&format!("changed, so {what} cannot be kept"), why).at(root));
         }
         lesson.check_saved()?;
         Ok(lesson)
@@ -141,6 +140,9 @@ impl Lesson {
                 wanted.push(number);
             } else if clip.score.aligned.is_none() {
                 let own = format!("clip {name} has times of its own, which stay; ");
+                notes.push(message![own, Setting::Clip.of(name), " finds them anew"]);
+            } else if clip.labels_are_script && clip.found_for_another() {
+                let own = format!("clip {name} has no script but what its times say, so they stay; ");
                 notes.push(message![own, Setting::Clip.of(name), " finds them anew"]);
             } else if clip.score.pins.is_empty() {
                 notes.push(format!("clip {name}: neither its sound nor its script has changed, its times stay").into());

@@ -85,6 +85,8 @@ pub enum Action {
     SaveAndGo,
     /// Drop the changes, then go on with what was asked.
     DropAndGo,
+    /// Leave with the changes in the journal, which the next run brings back.
+    KeepAndGo,
     /// Close what lies on top and change nothing.
     Close,
     /// Open the face of the clip.

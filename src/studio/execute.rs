@@ -253,6 +253,10 @@ fn on_top(state: &mut State, action: Action) -> Option<Job> {
                 _ => go(state, by),
             }
         }
+        (Overlay::Confirm(by), Action::KeepAndGo) => {
+            let by = *by;
+            go(state, by);
+        }
         (Overlay::Confirm(by), Action::SaveAndGo) => {
             let by = *by;
             save(state);

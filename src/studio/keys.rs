@@ -258,6 +258,12 @@ pub const TABLE: &[Row] = &[
     ),
     row(&[Confirm], &[("s", SaveAndGo), ("y", SaveAndGo), ("Enter", SaveAndGo)], "save", "save, then go"),
     row(&[Confirm], &[("d", DropAndGo), ("n", DropAndGo)], "discard", "discard the changes, then go"),
+    row(
+        &[Confirm],
+        &[("k", KeepAndGo)],
+        "keep",
+        "leave the changes in the journal, then go: they are back when the lesson is opened again",
+    ),
     row(&[Confirm], &[("Esc", Close), ("q", Close), ("c", Close)], "stay", "stay and change nothing"),
     row(&[Exporting], &[("Esc", Close), ("q", Close)], "stop", "stop the export"),
 ];

@@ -12,11 +12,10 @@ pub(super) fn word(step: &NextStep) -> String {
         (Some(Task::Calibrate), _) => key(Place::Face, A::Calibrate),
         (Some(Task::FindFace), _) => format!("{} on the page of the face", key(Place::Face, A::FindAgain)),
         (Some(Task::Export), _) => key(Place::Lesson, A::Export),
+        (Some(Task::New), _) => "`lianpu new` on the command line".to_owned(),
         (Some(Task::Open), _) => "the studio".to_owned(),
         (None, Some((Setting::Anchors, _))) => key(Place::Face, A::Anchors),
-        (None, Some((Setting::Out, _))) => {
-            "another output folder (on the command line: lianpu export … --out DIR)".to_owned()
-        }
+        (None, Some((Setting::Out, _))) => "`lianpu export … --out DIR` on the command line".to_owned(),
         _ => step.to_string(),
     }
 }

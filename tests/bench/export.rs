@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use lianpu::disk::replace;
 use lianpu::drawing::Drawing;
-use lianpu::export::{Dedupe, Format, Job, Request, plan, run};
+use lianpu::export::{Aside, Dedupe, Format, Job, Request, plan, run};
 use lianpu::pose::Head;
 use lianpu::project::Lesson;
 use lianpu::render::{ClipCoder, to_svg};
@@ -257,7 +257,9 @@ fn pairs(lesson: &Lesson, png: &Job, folder: &Path) {
         for (i, (_, threads, dedupe)) in ours.iter().enumerate() {
             let jobs = [job(lesson, folder, Format::Png, *dedupe)];
             let stop = AtomicBool::new(false);
-            let took = timed(|| assert_eq!(run(&jobs, *threads, &|_| {}, &stop).unwrap().0.written, png.count));
+            let took = timed(|| {
+                assert_eq!(run(&jobs, *threads, &Aside::default(), &|_| {}, &stop).unwrap().0.written, png.count)
+            });
             times[i].1.push((took.0 / f64::from(png.count), took.1 / f64::from(png.count)));
             std::fs::remove_dir_all(folder.join("out")).unwrap();
         }

@@ -155,7 +155,7 @@ pub fn write_wholes(
             if read_old(&file.path).is_some_and(|old| old == file.bytes) {
                 written.report.kept += 1;
             } else {
-                written.notes.extend(ledger.set_aside(&file.path, Some(&file.bytes))?);
+                ledger.set_aside(&file.path, Some(&file.bytes))?;
                 write_whole(&file.path, &file.bytes).map_err(elsewhere)?;
                 written.report.written += 1;
                 written.report.bytes += file.bytes.len() as u64;

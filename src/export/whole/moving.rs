@@ -77,7 +77,7 @@ impl Moving<'_> {
             written.report.kept = 1;
             return Ok(Some(written));
         }
-        written.notes.extend(ledger.set_aside(path, None)?);
+        ledger.set_aside(path, None)?;
         let Outcome::Written(bytes) = self.film(path, &captions, watch)? else { return Ok(None) };
         ledger.made(path, &key)?;
         written.report.written = 1;

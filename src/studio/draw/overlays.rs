@@ -175,11 +175,14 @@ fn doubts(buffer: &mut Buffer, area: Rect, list: &[Spotted], chosen: usize) {
 }
 
 fn confirm(buffer: &mut Buffer, area: Rect) {
-    let inside = boxed(buffer, area, 44, 3, "There are unsaved changes");
-    for ((key, text), y) in [("s", "save them, then go"), ("d", "discard them, then go"), ("Esc", "stay here")]
-        .into_iter()
-        .zip(inside.y..inside.bottom())
-    {
+    let rows = [
+        ("s", "save them, then go"),
+        ("d", "discard them, then go"),
+        ("k", "keep them for the next time, and go"),
+        ("Esc", "stay here"),
+    ];
+    let inside = boxed(buffer, area, 44, rows.len() as u16, "There are unsaved changes");
+    for ((key, text), y) in rows.into_iter().zip(inside.y..inside.bottom()) {
         put(buffer, inside.x, y, 4, key, BOLD);
         put(buffer, inside.x + 5, y, inside.width.saturating_sub(5), text, Style::new());
     }
