@@ -201,3 +201,62 @@ fn an_export_sets_aside_what_is_of_no_export() {
         assert_eq!(fs::read_to_string(out.join(format!("{name}~2"))).unwrap(), "theirs again", "{name}");
     }
 }
+
+#[test]
+fn what_an_export_has_set_aside_is_told_also_when_it_fails_then() {
+    let (dir, lesson, _) = lesson();
+    let out = dir.path().join("out");
+    fs::create_dir_all(out.join("nihao.html")).unwrap();
+    fs::write(out.join("nihao.srt"), "theirs").unwrap();
+    let args = ["export", lesson.to_str().unwrap(), "--to", "srt,html", "--clip", "nihao"];
+    let output = lianpu(&[&args[..], &["--out", out.to_str().unwrap()]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("kept as nihao.srt~"), "{}", said(&output));
+    assert_eq!(fs::read_to_string(out.join("nihao.srt~")).unwrap(), "theirs");
+}
+
+#[test]
+fn what_is_no_file_or_no_photo_in_a_lesson_is_wrong_and_not_overlooked() {
+    for (name, word) in [
+        ("clips/nihao/script.txt", "named pipe"),
+        ("clips/nihao/score.toml", "named pipe"),
+        ("clips/nihao/speech.wav", "named pipe"),
+        ("faces/teacher/neutral.png", "can be read"),
+    ] {
+        let (_dir, lesson, _) = lesson();
+        let at = lesson.join(name);
+        let _ = fs::remove_file(&at);
+        fs::create_dir_all(at.parent().unwrap()).unwrap();
+        if name.ends_with("png") {
+            fs::write(&at, "").unwrap()
+        } else {
+            pipe(&at)
+        }
+        let output = lianpu(&["check", lesson.to_str().unwrap()]);
+        let all = String::from_utf8_lossy(&output.stdout).into_owned() + &said(&output);
+        assert!(output.status.code() == Some(1) && all.contains(word), "{name}: {all}");
+    }
+}
+
+#[test]
+fn nothing_is_written_over_what_it_is_made_from_or_over_a_lesson() {
+    let (dir, lesson, _) = lesson();
+    let srt = dir.path().join("in.srt");
+    fs::write(&srt, "1\n00:00:00,300 --> 00:00:00,660\n您\n").unwrap();
+    let at = |name: &str| lesson.join(name).to_str().unwrap().to_owned();
+    let (srt, project) = (srt.to_str().unwrap(), lesson.to_str().unwrap());
+    let (script, times) = (at("clips/nihao/script.txt"), at("clips/nihao/timing.TextGrid"));
+    for args in [
+        vec!["convert", srt, "--to", "vtt", "--out", srt],
+        vec!["convert", srt, "--to", "textgrid", "--out", &times],
+        vec!["align", project, "--json", "--out", &script],
+        vec!["plot", project, "--what", "timeline", "--out", &at("lianpu.toml")],
+    ] {
+        let output = lianpu(&args);
+        assert!(
+            output.status.code() == Some(2) && said(&output).contains("written over"),
+            "{args:?} {}",
+            said(&output)
+        );
+    }
+}

@@ -401,3 +401,38 @@ fn a_recording_alone_becomes_a_lesson_whose_words_are_typed_onto_what_is_heard()
     align(&mut lesson);
     assert!(close(&times(&lesson), &TRUTH, 0.05), "{:?}", times(&lesson));
 }
+
+#[test]
+fn times_whose_script_is_gone_or_emptied_stay_and_that_is_told() {
+    for emptied in [false, true] {
+        let (_folder, root) = lesson("您好。");
+        let script = root.join("clips/hello/script.txt");
+        let mut opened = Lesson::open(&root).unwrap();
+        let change = end_first_at(&opened, 0.7);
+        opened.change(change).unwrap();
+        opened.save().unwrap();
+        let kept = times(&opened);
+        drop(opened);
+        if emptied {
+            std::fs::write(&script, "\n").unwrap()
+        } else {
+            std::fs::remove_file(&script).unwrap()
+        }
+        let mut lesson = Lesson::open(&root).unwrap();
+        assert!(!lesson.clips[0].wants_alignment());
+        let told = |l: &Lesson| l.clips[0].warnings.iter().any(|w| w.to_string().contains("script.txt"));
+        assert!(told(&lesson), "{:?}", lesson.clips[0].warnings);
+        assert!(lesson.align(None, true).unwrap().aligned.is_empty());
+        assert_eq!(times(&Lesson::read(&root).unwrap()), kept);
+    }
+}
+
+#[test]
+fn a_timing_file_is_no_script() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("said.txt");
+    std::fs::write(&script, "1\n00:00:00,300 --> 00:00:00,660\n您\n\n2\n00:00:00,660 --> 00:00:01,080\n好\n").unwrap();
+    let new = NewLesson { speech: Some(recording()), script: Some(script), ..NewLesson::default() };
+    let fault = create(&folder.path().join("hello"), &new, &mut |_, _| true).unwrap_err();
+    assert!(fault.what().contains("holds times in the format srt"), "{fault}");
+}

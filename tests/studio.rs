@@ -260,3 +260,39 @@ fn syllables_close_together_have_all_their_boundaries_or_none() {
     bench.keys("Tab + +");
     assert!(said(&mut bench, 80).matches('│').count() >= 2, "{}", said(&mut bench, 80));
 }
+
+#[test]
+fn the_changes_of_a_lesson_that_was_moved_are_kept_where_it_is_now() {
+    let mut bench = Bench::new(Some(TIMES), &[]);
+    bench.keys("] ]");
+    let (old, new) = (bench.dir.path().join("nihao"), bench.dir.path().join("moved"));
+    std::fs::rename(&old, &new).unwrap();
+    bench.keys("s");
+    assert!(bench.message().contains("moved while it was open"), "{}", bench.message());
+    #[cfg(target_os = "linux")]
+    assert!(bench.message().contains("/moved"), "{}", bench.message());
+    bench.keys("q q");
+    assert!(bench.screen(80, 24).contains("keep them"), "{}", bench.screen(80, 24));
+    bench.keys("k");
+    assert!(bench.studio.state.open.is_none());
+    assert_eq!(Lesson::open(&new).unwrap().recovered, 2);
+}
+
+#[test]
+fn a_save_puts_back_what_was_deleted_meanwhile() {
+    let mut bench = Bench::new(Some(TIMES), &[SCORE]);
+    let root = bench.dir.path().join("nihao");
+    let gone = ["lianpu.toml", "clips/nihao/script.txt", "clips/nihao/timing.TextGrid", "clips/nihao/score.toml"];
+    bench.keys("s");
+    let before: Vec<_> = gone.iter().map(|name| std::fs::read(root.join(name)).unwrap()).collect();
+    gone.iter().for_each(|name| std::fs::remove_file(root.join(name)).unwrap());
+    bench.keys("s");
+    assert!(bench.message().contains("saved"), "{}", bench.message());
+    for (name, before) in gone.iter().zip(before) {
+        let now = std::fs::read(root.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(now == before, "{name}");
+        assert!(bench.message().contains(name.rsplit('/').next().unwrap()), "{name}: {}", bench.message());
+    }
+    bench.keys("s");
+    assert!(bench.message().contains("nothing had changed"), "{}", bench.message());
+}

@@ -9,10 +9,10 @@ use super::output::spare;
 use super::output_fault;
 use super::print::{self, say};
 use super::times::{Row, json, seconds, table};
-use crate::disk::{Fault, Result, read_text, write_output};
+use crate::disk::{Fault, Result, write_output};
 use crate::media::Sound;
-use crate::project::{Clip, Lesson, tiers_of};
-use crate::script::{self, Syllable, System};
+use crate::project::{Clip, Lesson, read_script, tiers_of};
+use crate::script::{Syllable, System};
 use crate::speech::{self, Alignment, Note, Take};
 use crate::timing::{self, Format, Interval, Tier, Timing};
 
@@ -73,8 +73,7 @@ fn in_files(speech: &Path, args: &Args, out: &mut dyn Write) -> Result<()> {
     let Some(path) = &args.script else {
         return Err(Fault::new("a recording needs its script").help("give --script FILE").of_the_call());
     };
-    let text = read_text(path)?;
-    let syllables = script::syllables(&text, args.from.unwrap_or_default()).map_err(|f| f.at(path))?;
+    let (text, syllables) = read_script(path, args.from.unwrap_or_default())?;
     if syllables.is_empty() {
         return Err(Fault::new("there is nothing to say in it").at(path).help("write what is said in the recording"));
     }

@@ -17,7 +17,7 @@ use crate::pose::MouthPreset;
 use crate::ratios::{Record, Tracks};
 use crate::script::{self, OnsetPreset, Pause, Syllable, System};
 use crate::timeline::{Score, Sources, Spoken, Timeline};
-use crate::timing::{self, Interval, Tier, Timing};
+use crate::timing::{self, Format, Interval, Tier, Timing};
 
 /// The longest label that is kept, in characters.
 pub const LABEL_LIMIT: usize = 100;
@@ -143,15 +143,15 @@ impl Clip {
             sound_seconds: 0.0,
             video_seconds: 0.0,
         };
-        if let Some((path, mut script)) = text("script.txt")? {
-            clip.seen.script = sum_of(&path);
-            clip.kept_script.clone_from(&script);
-            if let Some(before) = instead {
-                before.clone_into(&mut script);
-            }
+        if let Some(path) = file("script.txt")? {
             let system = entry.script_system.unwrap_or(System::Auto);
-            clip.plain = script::syllables(&script, system).map_err(|f| f.at(&path))?;
-            clip.script = script;
+            clip.seen.script = sum_of(&path);
+            (clip.script, clip.plain) = read_script(&path, system)?;
+            clip.kept_script.clone_from(&clip.script);
+            if let Some(before) = instead {
+                clip.plain = script::syllables(before, system).map_err(|f| f.at(&path))?;
+                before.clone_into(&mut clip.script);
+            }
         }
         if let Some(path) = &clip.sound_path {
             let sound = Sound::read(path)?;
@@ -341,6 +341,24 @@ impl Clip {
             mouths,
         })
     }
+}
+
+/// The text of a script and its syllables.
+///
+/// # Errors
+/// When it cannot be read, or is a timing file and no script.
+pub fn read_script(path: &Path, system: System) -> Result<(String, Vec<Syllable>)> {
+    let text = read_text(path)?;
+    if let Some(format @ (Format::TextGrid | Format::TextGridShort | Format::Srt | Format::WebVtt | Format::Csv)) =
+        Format::sniff(text.as_bytes())
+    {
+        let what = format!("it holds times in the format {format}, and is no script");
+        return Err(Fault::of(FileFault::Mismatch, what)
+            .at(path)
+            .help("give what is said as plain text; times are a file of their own"));
+    }
+    let syllables = script::syllables(&text, system).map_err(|f| f.at(path))?;
+    Ok((text, syllables))
 }
 
 /// What recordings are called at their end. What is in them their content says; Opus is named when it is found.

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::brought::{Brought, copy_video, frame_of, write_face};
-use super::clip::SOUNDS;
+use super::clip::{SOUNDS, read_script};
 use super::manifest::{ClipEntry, FaceEntry, MANIFEST, Manifest, Output};
 use super::settled::OWN_FOLDER;
 use super::video::FRAMES_FPS;
@@ -346,7 +346,7 @@ fn check_inputs(new: &NewLesson) -> Result<()> {
         crate::media::Sound::read(path)?;
     }
     if let Some(path) = &new.script {
-        crate::script::syllables(&read_text(path)?, new.system.unwrap_or(System::Auto)).map_err(|f| f.at(path))?;
+        read_script(path, new.system.unwrap_or(System::Auto))?;
     }
     if let Some(path) = &new.timing {
         timing::read(path)?;

@@ -132,13 +132,12 @@ impl Manifest {
     pub fn read(root: &Path) -> Result<Self> {
         confine(root);
         let path = root.join(MANIFEST);
-        if !root.is_dir() {
-            return Err(Fault::of(ProjectFault::NoProject, "there is no such folder")
-                .at(root)
-                .help("give the folder that has a lianpu.toml"));
-        }
         if !path.is_file() {
-            return Err(Fault::of(ProjectFault::NoProject, "there is no lesson here").at(&path).help(message![
+            let (what, at) = match root.is_dir() {
+                true => ("there is no lesson here", path.as_path()),
+                false => ("there is no such folder", root),
+            };
+            return Err(Fault::of(ProjectFault::NoProject, what).at(at).help(message![
                 "make one with ",
                 Task::New,
                 ", or give the folder that has a lianpu.toml"

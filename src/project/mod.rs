@@ -35,7 +35,7 @@ pub use align::{AlignJob, tiers_of};
 pub use change::{Change, Edit, Spot, Times};
 pub(crate) use check::counted;
 pub use check::{Finding, check, check_quality};
-pub use clip::{Clip, LABEL_LIMIT};
+pub use clip::{Clip, LABEL_LIMIT, read_script};
 pub use create::{Made, NewLesson, create};
 pub use doubts::{Concern, Doubt};
 pub use face::LessonFace;
