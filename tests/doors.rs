@@ -228,9 +228,9 @@ fn what_is_no_file_or_no_photo_in_a_lesson_is_wrong_and_not_overlooked() {
         let _ = fs::remove_file(&at);
         fs::create_dir_all(at.parent().unwrap()).unwrap();
         if name.ends_with("png") {
-            fs::write(&at, "").unwrap()
+            fs::write(&at, "").unwrap();
         } else {
-            pipe(&at)
+            pipe(&at);
         }
         let output = lianpu(&["check", lesson.to_str().unwrap()]);
         let all = String::from_utf8_lossy(&output.stdout).into_owned() + &said(&output);

@@ -414,9 +414,9 @@ fn times_whose_script_is_gone_or_emptied_stay_and_that_is_told() {
         let kept = times(&opened);
         drop(opened);
         if emptied {
-            std::fs::write(&script, "\n").unwrap()
+            std::fs::write(&script, "\n").unwrap();
         } else {
-            std::fs::remove_file(&script).unwrap()
+            std::fs::remove_file(&script).unwrap();
         }
         let mut lesson = Lesson::open(&root).unwrap();
         assert!(!lesson.clips[0].wants_alignment());

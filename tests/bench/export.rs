@@ -258,7 +258,7 @@ fn pairs(lesson: &Lesson, png: &Job, folder: &Path) {
             let jobs = [job(lesson, folder, Format::Png, *dedupe)];
             let stop = AtomicBool::new(false);
             let took = timed(|| {
-                assert_eq!(run(&jobs, *threads, &Aside::default(), &|_| {}, &stop).unwrap().0.written, png.count)
+                assert_eq!(run(&jobs, *threads, &Aside::default(), &|_| {}, &stop).unwrap().0.written, png.count);
             });
             times[i].1.push((took.0 / f64::from(png.count), took.1 / f64::from(png.count)));
             std::fs::remove_dir_all(folder.join("out")).unwrap();
