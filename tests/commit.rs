@@ -349,7 +349,7 @@ fn unsaved_changes_of_an_earlier_session_are_mentioned_by_check() {
     };
     assert!(mentioned());
     assert_eq!(Lesson::read(&case.root).unwrap().unsaved.changes, 2);
-    let open = Lesson::open(&case.root).unwrap();
+    let mut open = Lesson::open(&case.root).unwrap();
     assert!(!mentioned(), "they are those of this session");
     open.discard().unwrap();
     assert!(!mentioned());

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use lianpu::face::{Face, FeaturePoint, How, Part};
 use lianpu::photo::Photo;
 use lianpu::project::Lesson;
-use lianpu::studio::{Colours, State, Studio};
+use lianpu::studio::{Colours, FaceScreen, Studio};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 
@@ -208,8 +208,8 @@ fn done_or_said(project: &Path) -> String {
 }
 
 fn studio(project: &Path) -> Studio {
-    let state = State::new(project, Colours::True).unwrap();
-    let mut studio = Studio::new(state, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let mut studio =
+        Studio::new(project, Colours::True, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default()))).unwrap();
     studio.key("Enter");
     studio.settle();
     studio.key("f");
@@ -232,7 +232,7 @@ fn points_move_by_keys_alone_or_with_their_mirror_image_and_undo_takes_it_back()
     let before = face_of(&project);
     let mut studio = studio(&project);
     let at = |studio: &Studio, p: FeaturePoint| {
-        *studio.state.lesson().unwrap().faces[0].face.as_ref().unwrap().placed(p).unwrap()
+        *studio.project().unwrap().borrow().lesson.faces[0].face.as_ref().unwrap().placed(p).unwrap()
     };
     assert!(screen(&mut studio, 80, 24).contains("middle of the left eyeball"));
     for key in ["g", "Ctrl-u", "8", ".", "4", "Enter"] {
@@ -253,7 +253,7 @@ fn points_move_by_keys_alone_or_with_their_mirror_image_and_undo_takes_it_back()
     for _ in 0..3 {
         studio.key("u");
     }
-    assert_eq!(studio.state.lesson().unwrap().faces[0].face.as_ref().unwrap(), &before);
+    assert_eq!(studio.project().unwrap().borrow().lesson.faces[0].face.as_ref().unwrap(), &before);
     studio.key("Right");
     studio.key("s");
     assert_eq!(face_of(&project).placed(FeaturePoint::P8_4).unwrap().how, How::Hand);
@@ -279,14 +279,14 @@ fn stages_emotions_and_mouths_can_be_looked_at_and_the_face_placed_by_hand() {
     studio.key("o");
     assert!(screen(&mut studio, 120, 40).contains("1 of 4"));
     for place in [goal(FeaturePoint::P3_6), goal(FeaturePoint::P3_5), mouth, goal(FeaturePoint::P2_1)] {
-        let cross = studio.state.face.as_ref().unwrap().placing.as_ref().unwrap().cross;
+        let cross = studio.stack.find::<FaceScreen>().unwrap().desk.placing.as_ref().unwrap().cross;
         let (x, y) = ((place.x - cross.x).round() as i32, (place.y - cross.y).round() as i32);
         (0..x.abs()).for_each(|_| _ = studio.key(if x < 0 { "h" } else { "l" }));
         (0..y.abs()).for_each(|_| _ = studio.key(if y < 0 { "k" } else { "j" }));
         studio.key("Enter");
     }
     studio.settle();
-    let placed = studio.state.lesson().unwrap().faces[0].face.as_ref().unwrap();
+    let placed = studio.project().unwrap().borrow().lesson.faces[0].face.clone().unwrap();
     assert!(placed.points[FeaturePoint::P8_4.index()].at.distance(goal(FeaturePoint::P8_4)) < 12.0);
     studio.key("c");
     assert!(screen(&mut studio, 80, 24).contains("hair: wavy"));

@@ -10,7 +10,7 @@ use std::time::Duration;
 use lianpu::disk::Fault;
 use lianpu::export::{CourseReport, Format};
 use lianpu::project::Lesson;
-use lianpu::studio::{Colours, ExportRequest, Exporter, Player, Progress, Show, State, Studio};
+use lianpu::studio::{Colours, ExportRequest, Exporter, Player, Progress, Show, Studio};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use studio_bench::{Bench, SCORE, TIMES, lesson, text_of};
@@ -33,9 +33,9 @@ fn lessons_clips_and_the_timeline_fit_80_by_24_and_fill_200_by_50() {
 fn saving_writes_what_was_edited_and_the_lesson_reads_back_so() {
     let mut bench = Bench::new(Some(TIMES), &[]);
     bench.keys("] j j a 'happy' Enter");
-    assert!(bench.studio.state.is_unsaved() && bench.screen(80, 24).contains("unsaved"));
+    assert!(bench.studio.is_unsaved() && bench.screen(80, 24).contains("unsaved"));
     bench.keys("Ctrl-s");
-    assert!(!bench.studio.state.is_unsaved());
+    assert!(!bench.studio.is_unsaved());
     assert!(bench.message().contains("score.toml") && bench.message().contains("timing.TextGrid"));
     let read = Lesson::read(&bench.dir.path().join("nihao")).unwrap();
     assert!((read.clips[0].intervals()[0].start - 0.31).abs() < 1e-9);
@@ -73,13 +73,13 @@ fn leaving_with_unsaved_changes_asks_and_does_what_is_answered() {
     bench.keys("] q q");
     assert!(bench.screen(80, 24).contains("discard them"));
     bench.keys("Esc");
-    assert!(bench.studio.state.is_unsaved() && bench.studio.state.open.is_some());
+    assert!(bench.studio.is_unsaved() && bench.studio.project().is_some());
     bench.keys("q d");
-    assert!(bench.studio.state.open.is_none());
+    assert!(bench.studio.project().is_none());
     bench.keys("Enter Enter");
     assert_eq!(bench.times(), TIMES, "what was discarded does not come back");
     bench.keys("] Ctrl-c s");
-    assert!(bench.studio.state.leaving);
+    assert!(bench.studio.shell().leaving);
     let read = Lesson::read(&bench.dir.path().join("nihao")).unwrap();
     assert!((read.clips[0].intervals()[0].start - 0.31).abs() < 1e-9);
 }
@@ -90,8 +90,7 @@ fn what_a_lost_connection_left_in_the_journal_is_brought_back() {
     bench.keys("] ]");
     let Bench { studio, dir } = bench;
     drop(studio);
-    let studio =
-        Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
+    let studio = Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(CourseReport::default()))).unwrap();
     let mut bench = Bench { studio, dir };
     bench.keys("Enter");
     assert!(bench.message().contains("2 unsaved changes"), "{}", bench.message());
@@ -122,7 +121,7 @@ fn zooming_in_spreads_the_syllables_and_fit_shows_all_again() {
     let mut bench = Bench::new(Some(TIMES), &[]);
     let whole = bench.screen(80, 24);
     bench.keys("Tab + +");
-    assert_eq!(bench.studio.state.editor.as_ref().unwrap().window.span, 0.4);
+    assert_eq!(bench.editor().borrow().window.span, 0.4);
     assert_ne!(bench.screen(80, 24), whole);
     bench.keys("PageDown PageDown Home 0");
     assert_eq!(bench.screen(80, 24), whole);
@@ -149,23 +148,22 @@ fn an_export_shows_how_far_it_is_and_can_be_stopped() {
     assert!(bench.screen(80, 24).contains("`jpg` is no format: svg png"), "a faulty word keeps the prompt open");
     bench.keys("Ctrl-u 'png srt'");
     bench.studio.key("Enter");
-    assert!(!bench.studio.state.is_unsaved(), "what is exported is what is on the screen");
+    assert!(!bench.studio.is_unsaved(), "what is exported is what is on the screen");
     let report = bench.studio.reports().recv_timeout(Duration::from_secs(5)).unwrap();
     bench.studio.receive(report);
     assert!(bench.screen(80, 24).contains("3 of 40   frames"));
     bench.studio.key("Ctrl-c");
-    assert!(!bench.studio.state.leaving && bench.message().contains("running"));
+    assert!(!bench.studio.shell().leaving && bench.message().contains("running"));
     bench.keys("Esc");
     assert!(bench.message().contains("stopped"), "{}", bench.message());
-    assert!(bench.studio.state.overlays.is_empty());
+    assert!(!bench.has_box());
 }
 
 #[test]
 fn a_damaged_lesson_shows_what_is_wrong_and_where() {
     let dir = tempfile::tempdir().unwrap();
     lesson(&dir.path().join("nihao"), Some(TIMES), &[("score.toml", "[[key]]\ntrack = \"mouht\"\n")]);
-    let studio =
-        Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
+    let studio = Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(CourseReport::default()))).unwrap();
     let mut bench = Bench { studio, dir };
     bench.keys("Enter Enter Enter s e u");
     let screen = bench.screen(80, 24);
@@ -176,13 +174,13 @@ fn a_damaged_lesson_shows_what_is_wrong_and_where() {
 #[test]
 fn a_second_studio_may_look_and_not_touch() {
     let mut first = Bench::new(Some(TIMES), &[]);
-    let state = State::new(first.dir.path(), Colours::None).unwrap();
-    let mut second = Studio::new(state, Box::new(|_, _, _| Ok(CourseReport::default())));
+    let mut second =
+        Studio::new(first.dir.path(), Colours::None, Box::new(|_, _, _| Ok(CourseReport::default()))).unwrap();
     for key in ["Enter", "Enter", "]"] {
         second.key(key);
         second.settle();
     }
-    assert!(second.state.message.as_ref().is_some_and(|m| m.is_fault && m.text.contains("another window")));
+    assert!(second.shell().message.as_ref().is_some_and(|m| m.is_fault && m.text.contains("another window")));
     assert_eq!(first.keys("]").times()[0].0, 0.31);
 }
 
@@ -207,13 +205,12 @@ fn where_nothing_can_be_seen_no_key_but_quitting_does_anything_and_changes_wait_
     let text = bench.screen(30, 10).replace('\n', " ");
     assert!(text.contains("too small") && text.contains("Ctrl-c quits"), "{text}");
     bench.keys("] q x");
-    assert!((bench.times()[0].0 - 0.31).abs() < 1e-9 && bench.studio.state.editor.is_some());
+    assert!((bench.times()[0].0 - 0.31).abs() < 1e-9 && bench.studio.editor().is_some());
     bench.keys("Ctrl-c");
-    assert!(bench.studio.state.leaving);
+    assert!(bench.studio.shell().leaving);
     let Bench { studio, dir } = bench;
     drop(studio);
-    let studio =
-        Studio::new(State::new(dir.path(), Colours::None).unwrap(), Box::new(|_, _, _| Ok(CourseReport::default())));
+    let studio = Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(CourseReport::default()))).unwrap();
     let mut bench = Bench { studio, dir };
     assert!(bench.keys("Enter").message().contains("brought back 1 unsaved change from last time"));
 }
@@ -274,7 +271,7 @@ fn the_changes_of_a_lesson_that_was_moved_are_kept_where_it_is_now() {
     bench.keys("q q");
     assert!(bench.screen(80, 24).contains("keep them"), "{}", bench.screen(80, 24));
     bench.keys("k");
-    assert!(bench.studio.state.open.is_none());
+    assert!(bench.studio.project().is_none());
     assert_eq!(Lesson::open(&new).unwrap().recovered, 2);
 }
 

@@ -66,15 +66,15 @@ fn a_reading_is_checked_and_written_as_the_label_and_empty_gives_it_back_to_the_
     bench.keys("Tab Tab Enter Ctrl-u 'xyz' Enter");
     assert!(bench.screen(80, 24).contains("hang2"), "what is allowed is said");
     bench.keys("Ctrl-u 'hào' Enter");
-    let clip = bench.studio.state.clip().unwrap();
+    let clip = bench.clip();
     assert_eq!((clip.intervals()[1].label.as_str(), clip.syllables[1].pinyin.as_str()), ("好{hao4}", "hao4"));
     bench.keys("r Ctrl-u 'hai' Enter");
     assert!(bench.message().contains("read hai, neutral tone or no tone given"), "{}", bench.message());
     bench.keys("r Ctrl-u Enter");
-    let clip = bench.studio.state.clip().unwrap();
+    let clip = bench.clip();
     assert_eq!((clip.intervals()[1].label.as_str(), clip.syllables[1].pinyin.as_str()), ("好", "hao3"));
     bench.keys("u u u");
-    assert_eq!(bench.studio.state.clip().unwrap().intervals()[1].label, "hao3");
+    assert_eq!(bench.clip().intervals()[1].label, "hao3");
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn keys_are_added_changed_moved_and_deleted_on_every_lane() {
     assert_eq!(bench.keys_of(Track::Gaze).len(), 1);
     assert_eq!(bench.keys_of(Track::Head).len(), 1);
     bench.keys("x k x k Delete k x");
-    assert!(bench.studio.state.clip().unwrap().score.keys.is_empty(), "{}", bench.message());
+    assert!(bench.clip().score.keys.is_empty(), "{}", bench.message());
     bench.keys("u");
     assert_eq!(bench.keys_of(Track::Emotion).len(), 1);
 }
@@ -102,11 +102,11 @@ fn keys_are_added_changed_moved_and_deleted_on_every_lane() {
 fn a_key_of_speech_is_taken_over_by_moving_or_changing_it_and_deleting_gives_it_back() {
     let mut bench = Bench::new(Some(TIMES), &[]);
     bench.keys("j n n )");
-    let clip = bench.studio.state.clip().unwrap();
+    let clip = bench.clip();
     let [own] = clip.score.keys[..] else { panic!("{:?}", clip.score.keys) };
     assert!((own.time - own.replaces.unwrap() - 0.04).abs() < 1e-9);
     let author = |b: &Bench| {
-        let keys = b.studio.state.editor.as_ref().unwrap().timeline.mouth_keys().to_vec();
+        let keys = b.editor().borrow().timeline.mouth_keys().to_vec();
         keys.iter().filter(|k| k.origin == lianpu::timeline::Origin::Author).count()
     };
     assert_eq!(author(&bench), 1);
@@ -125,7 +125,7 @@ fn a_stretch_of_the_record_is_marked_and_changed() {
     let record = format!("frame,time,neutral,happy,anger,disgust,sadness,fear,surprised,confidence\n{rows}");
     let mut bench = Bench::new(Some(TIMES), &[("ratios.csv", &record)]);
     bench.keys("Tab v Tab v 'happy *0.5' Enter");
-    let happy = |b: &Bench, t| b.studio.state.editor.as_ref().unwrap().timeline.ratios(t).0[1];
+    let happy = |b: &Bench, t| b.editor().borrow().timeline.ratios(t).0[1];
     assert!((happy(&bench, 0.52) - 0.25).abs() < 1e-9 && (happy(&bench, 1.2) - 0.5).abs() < 1e-9);
     bench.keys("X");
     assert!((happy(&bench, 0.52) - 0.5).abs() < 1e-9, "{}", bench.message());
@@ -142,8 +142,7 @@ fn an_edited_stretch_is_told_under_the_cursor_and_enter_changes_it_as_one_change
     bench.keys("Enter");
     assert!(bench.screen(80, 24).contains("> happy *0.5"));
     bench.keys("'happy *0.2' Enter");
-    let scales =
-        |b: &Bench| -> Vec<f64> { b.studio.state.clip().unwrap().score.ranges.iter().map(|r| r.scale[1]).collect() };
+    let scales = |b: &Bench| -> Vec<f64> { b.clip().score.ranges.iter().map(|r| r.scale[1]).collect() };
     assert_eq!(scales(&bench), [0.2]);
     assert_eq!(scales(bench.keys("u")), [0.5]);
 }
@@ -166,5 +165,5 @@ fn pasted_text_goes_into_a_line_being_typed_and_is_no_command() {
     bench.keys("r Ctrl-u");
     bench.studio.paste("nin3");
     bench.keys("Enter");
-    assert_eq!(bench.studio.state.clip().unwrap().syllables[0].pinyin, "nin3");
+    assert_eq!(bench.clip().syllables[0].pinyin, "nin3");
 }

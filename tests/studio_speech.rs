@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lianpu::project::Lesson;
-use lianpu::studio::{Aligner, Colours, Phase, State, Studio};
+use lianpu::studio::{Aligner, Colours, Phase, Studio};
 use studio_bench::{Bench, TIMES, found, lesson};
 
 const FOUND: [(f64, f64); 2] = [(0.31, 0.74), (0.78, 1.12)];
@@ -19,7 +19,7 @@ fn line<'a>(screen: &'a str, name: &str) -> &'a str {
 }
 
 fn pins(bench: &Bench) -> Vec<usize> {
-    bench.studio.state.clip().unwrap().score.pins.clone()
+    bench.clip().score.pins.clone()
 }
 
 #[test]
@@ -76,10 +76,9 @@ fn a_newer_search_takes_the_place_of_the_one_that_waits() {
         count.fetch_add(1, Ordering::SeqCst);
         vec![(0, Ok(found()))]
     });
-    let studio = Studio::new(
-        State::new(dir.path(), Colours::None).unwrap(),
-        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
-    );
+    let studio =
+        Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())))
+            .unwrap();
     let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
     bench.keys("Enter Enter");
     for _ in 0..5 {
@@ -100,14 +99,13 @@ fn a_search_asked_for_in_another_lesson_waits_for_the_first_ones_end() {
         opened.lock().unwrap().recv().unwrap();
         vec![(0, Ok(found()))]
     });
-    let studio = Studio::new(
-        State::new(dir.path(), Colours::None).unwrap(),
-        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
-    );
+    let studio =
+        Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())))
+            .unwrap();
     let mut bench = Bench { studio: studio.with_aligner(aligner), dir };
     let open = |bench: &mut Bench| {
         bench.studio.key("Enter");
-        while bench.studio.state.open.is_none() {
+        while bench.studio.project().is_none() {
             let report = bench.studio.reports().recv().unwrap();
             bench.studio.receive(report);
         }
@@ -123,7 +121,7 @@ fn a_search_asked_for_in_another_lesson_waits_for_the_first_ones_end() {
     gate.send(()).unwrap();
     gate.send(()).unwrap();
     bench.studio.settle();
-    assert!(bench.studio.state.lesson().unwrap().root.ends_with("second"));
+    assert!(bench.studio.project().unwrap().borrow().lesson.root.ends_with("second"));
     assert_eq!(bench.times(), FOUND);
 }
 
@@ -132,16 +130,17 @@ fn a_lesson_that_is_only_looked_at_is_not_aligned() {
     let first = Bench::new(Some(TIMES), &[]);
     let clip = first.dir.path().join("nihao/clips/nihao/timing.TextGrid");
     std::fs::remove_file(clip).unwrap();
-    let state = State::new(first.dir.path(), Colours::None).unwrap();
-    let studio = Studio::new(state, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let studio =
+        Studio::new(first.dir.path(), Colours::None, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())))
+            .unwrap();
     let mut second = studio.with_aligner(Aligner::new(|_| vec![(0, Ok(found()))]));
     for key in ["Enter", "Enter"] {
         second.key(key);
         second.settle();
     }
-    assert!(second.state.clip().unwrap().timing.guessed);
+    assert!(second.project().unwrap().borrow().lesson.clips[0].timing.guessed);
     second.key("A");
-    assert!(second.state.message.as_ref().is_some_and(|m| m.is_fault && m.text.contains("another window")));
+    assert!(second.shell().message.as_ref().is_some_and(|m| m.is_fault && m.text.contains("another window")));
 }
 
 #[test]
@@ -160,12 +159,12 @@ fn doubts_have_a_sign_are_gone_to_and_listed_and_a_hand_settles_them() {
     bench.keys("D o");
     insta::assert_snapshot!("doubts_list_80x24", bench.screen(80, 24));
     bench.keys("Down Enter");
-    assert_eq!((bench.cursor(), bench.studio.state.overlays.len()), (1.2, 0));
+    assert_eq!((bench.cursor(), bench.has_box()), (1.2, false));
     bench.keys("D ]");
     let screen = bench.screen(80, 24);
     assert!(!screen.contains("好!") && screen.contains("by hand") && screen.contains("1 ! (d)"), "{screen}");
     bench.keys("o Esc");
-    assert!(bench.studio.state.overlays.is_empty());
+    assert!(!bench.has_box());
 }
 
 #[test]
@@ -178,7 +177,7 @@ fn phones_are_seen_where_they_can_be_read_and_follow_their_syllable() {
     let face = |s: &str| s.lines().take(12).map(str::to_owned).collect::<Vec<_>>();
     let before = face(&bench.screen(80, 24));
     let mut long = Bench::aligning(None, found());
-    long.studio.state.editor.as_mut().unwrap().window.span = 30.0;
+    long.editor().borrow_mut().window.span = 30.0;
     let screen = long.screen(80, 24);
     assert!(line(&screen, "phones").is_empty(), "{screen}");
     assert_eq!(face(&screen)[1..5], before[1..5], "zooming leaves the face where it is");
@@ -252,7 +251,7 @@ fn a_tap_that_is_taken_back_goes_a_second_back_and_the_rest_is_offered_to_the_se
     bench.keys("Enter");
     bench.studio.advance(1.0);
     bench.keys("Enter Backspace");
-    let tapping = bench.studio.state.editor.as_ref().unwrap().tapping.clone().unwrap();
+    let tapping = bench.tapping().unwrap().clone();
     assert_eq!((tapping.at, tapping.next, tapping.taps.len()), (0.0, 1, 1), "no farther back than where it began");
     assert!((tapping.taps[0].at - 0.4).abs() < 1e-9, "at half speed");
     bench.keys("q");
@@ -280,7 +279,7 @@ fn how_late_taps_come_is_measured_once_and_taken_off() {
     bench.keys("Enter");
     bench.studio.advance(0.5);
     bench.keys("Enter x t");
-    assert!(matches!(bench.studio.state.editor.as_ref().unwrap().tapping.as_ref().unwrap().phase, Phase::Ready));
+    assert!(matches!(bench.tapping().unwrap().phase, Phase::Ready));
     assert!(bench.screen(80, 24).contains("100 ms are taken off"));
     bench.keys("Enter");
     bench.studio.advance(2.1);
@@ -302,7 +301,7 @@ fn leaving_while_tapping_keeps_what_was_tapped() {
     bench.keys("Esc Ctrl-c");
     assert!(bench.screen(80, 24).contains("unsaved"));
     bench.keys("s");
-    assert!(bench.studio.state.leaving);
+    assert!(bench.studio.shell().leaving);
     let read = Lesson::read(&bench.dir.path().join("nihao")).unwrap();
     assert!((read.clips[0].intervals()[0].start - 0.5).abs() < 1e-6);
 }
@@ -326,7 +325,7 @@ fn a_tap_at_the_very_end_is_kept_and_what_cannot_be_kept_is_not_lost_by_leaving(
     bench.keys("Enter");
     bench.studio.advance(0.599_86);
     bench.keys("Space q");
-    let duration = bench.studio.state.clip().unwrap().duration();
+    let duration = bench.clip().duration();
     assert!(bench.message().contains("tapped 2"), "{}", bench.message());
     assert!(bench.times()[1].1 > duration - 2e-4 && bench.times()[1].1 <= duration, "{:?}", bench.times());
 
@@ -339,17 +338,17 @@ fn a_tap_at_the_very_end_is_kept_and_what_cannot_be_kept_is_not_lost_by_leaving(
     bench.studio.advance(1.09);
     bench.keys("Space Ctrl-c");
     assert!(bench.message().contains("no room is left"), "{}", bench.message());
-    let taps = |bench: &Bench| bench.studio.state.editor.as_ref().unwrap().tapping.as_ref().map(|t| t.taps.len());
-    assert_eq!((bench.studio.state.leaving, taps(&bench)), (false, Some(2)));
+    let taps = |bench: &Bench| bench.tapping().map(|t| t.taps.len());
+    assert_eq!((bench.studio.shell().leaving, taps(&bench)), (false, Some(2)));
     bench.keys("x Ctrl-c");
-    assert!(bench.studio.state.leaving);
+    assert!(bench.studio.shell().leaving);
 }
 
 #[test]
 fn marked_places_give_way_to_syllables() {
     let mut bench = Bench::new(Some([(0.3, 0.5), (0.9, 1.1)]), &[]);
-    bench.studio.state.editor.as_mut().unwrap().places = vec![(0.5, 0.7), (1.12, 1.5)];
-    let places = |bench: &Bench| bench.studio.state.editor.as_ref().unwrap().places.clone();
+    bench.editor().borrow_mut().places = vec![(0.5, 0.7), (1.12, 1.5)];
+    let places = |bench: &Bench| bench.editor().borrow().places.clone();
     bench.keys("Home .");
     let end = bench.times()[0].1;
     assert_eq!((end > 0.505, places(&bench)), (true, vec![(end, 0.7), (1.12, 1.5)]));
@@ -367,14 +366,12 @@ fn without_script() -> Bench {
     let dir = tempfile::tempdir().unwrap();
     lesson(&dir.path().join("nihao"), None, &[]);
     std::fs::remove_file(dir.path().join("nihao/clips/nihao/script.txt")).unwrap();
-    let studio = Studio::new(
-        State::new(dir.path(), Colours::None).unwrap(),
-        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
-    );
+    let studio =
+        Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())))
+            .unwrap();
     let mut bench = Bench { studio, dir };
     bench.keys("Enter Enter");
-    let editor = bench.studio.state.editor.as_mut().unwrap();
-    editor.places = vec![(0.3, 0.5), (0.5, 0.75), (0.77, 1.28)];
+    bench.editor().borrow_mut().places = vec![(0.3, 0.5), (0.5, 0.75), (0.77, 1.28)];
     bench
 }
 
@@ -410,7 +407,7 @@ fn words_may_be_put_between_others_and_pins_stay_with_their_syllables() {
     bench.keys("End Tab Shift-Tab Enter '好' Enter [");
     assert_eq!(pins(&bench), [0]);
     bench.keys("Home Tab Enter '你們' Enter");
-    let clip = bench.studio.state.clip().unwrap();
+    let clip = bench.clip();
     let said: Vec<&str> = clip.syllables.iter().map(|s| s.text.as_str()).collect();
     assert_eq!((said.len(), said[2]), (3, "好"), "{said:?} {}", bench.message());
     assert_eq!(pins(&bench), [2]);

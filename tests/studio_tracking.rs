@@ -12,7 +12,7 @@ use lianpu::face::{FeaturePoint, How, create};
 use lianpu::photo::Photo;
 use lianpu::pose::Emotion;
 use lianpu::project::{Change, Concern, Edit, Finding, Lesson, check};
-use lianpu::studio::{Colours, State, Studio};
+use lianpu::studio::{Colours, Studio};
 use studio_bench::Bench;
 
 const XIYANG: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/projects/xiyang");
@@ -44,10 +44,8 @@ fn copied(photos: &[&str], frames: &[Vec<u8>]) -> tempfile::TempDir {
 }
 
 fn bench(dir: tempfile::TempDir, colours: Colours) -> Bench {
-    let studio = Studio::new(
-        State::new(dir.path(), colours).unwrap(),
-        Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
-    );
+    let studio =
+        Studio::new(dir.path(), colours, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default()))).unwrap();
     Bench { studio, dir }
 }
 
@@ -61,7 +59,7 @@ fn marks(bench: &Bench, name: &str) -> Marks {
 
 /// A point of a shot as the lesson on the desk has it.
 fn placed(bench: &Bench, emotion: Emotion, point: FeaturePoint) -> lianpu::face::Placed {
-    let face = &bench.studio.state.lesson().unwrap().faces[0];
+    let face = bench.studio.project().unwrap().borrow().lesson.faces[0].clone();
     face.shot(emotion).unwrap().points().find(|p| p.0 == point).unwrap().1
 }
 
@@ -73,7 +71,7 @@ fn shots_are_walked_calibrated_corrected_undone_saved_and_read_back() {
     bench.keys("]");
     assert!(bench.screen(100, 30).contains("no points yet: C finds them"));
     bench.keys("Right");
-    assert!(bench.message().contains("C finds them") && !bench.studio.state.is_unsaved());
+    assert!(bench.message().contains("C finds them") && !bench.studio.is_unsaved());
     bench.keys("]");
     let missing = bench.screen(100, 30);
     assert!(missing.contains("There is no photo of anger") && missing.contains("○anger"), "{missing}");
@@ -85,16 +83,16 @@ fn shots_are_walked_calibrated_corrected_undone_saved_and_read_back() {
     let source = |e: Emotion| file.calibration.shapes()[e.index()].source;
     assert!(matches!(source(Emotion::Happy), Source::Found(_)) && source(Emotion::Anger) == Source::Modelled);
     assert!(face.join("model.aam").is_file() && !face.join("anger.toml").exists());
-    assert!(!bench.studio.state.is_unsaved(), "what was found is saved");
+    assert!(!bench.studio.is_unsaved(), "what was found is saved");
     let screen = bench.screen(100, 30);
     assert!(screen.contains("modelled after everybody's face"), "{screen}");
     insta::assert_snapshot!("shot_missing_80x24", bench.screen(80, 24));
 
     // A point moved with both sides, taken back, moved again.
     bench.keys("[");
-    assert_eq!(bench.studio.state.face.as_ref().unwrap().shot, Emotion::Happy);
+    assert_eq!(bench.face().shot, Emotion::Happy);
     let before = marks(&bench, "happy.toml");
-    let point = bench.studio.state.face.as_ref().unwrap().point;
+    let point = bench.face().point;
     let was = placed(&bench, Emotion::Happy, point);
     bench.keys("Right Down");
     let now = placed(&bench, Emotion::Happy, point);
@@ -103,7 +101,7 @@ fn shots_are_walked_calibrated_corrected_undone_saved_and_read_back() {
     assert!(bench.screen(100, 30).contains("changed since the face was calibrated"));
     bench.keys("u u");
     assert_eq!(placed(&bench, Emotion::Happy, point), was);
-    assert!(!bench.studio.state.face.as_ref().unwrap().is_stale);
+    assert!(!bench.face().is_stale);
     bench.keys("Ctrl-r b Right Tab x");
     assert!(bench.message().contains("not set by hand"), "{}", bench.message());
     bench.keys("s");
@@ -121,14 +119,14 @@ fn shots_are_walked_calibrated_corrected_undone_saved_and_read_back() {
     // What a hand has set stays through a calibration, and is what it goes by.
     bench.keys("C");
     assert!(bench.message().starts_with("calibrated:"), "{}", bench.message());
-    assert!(!bench.studio.state.face.as_ref().unwrap().is_stale);
+    assert!(!bench.face().is_stale);
     let again = marks(&bench, "happy.toml");
     for (one, other) in after.points.iter().zip(&again.points).filter(|p| p.0.how == How::Hand) {
         assert_eq!(one, other);
     }
     bench.keys("Shift-Tab x");
     assert!(bench.message().contains("free again"), "{}", bench.message());
-    assert!(bench.studio.state.face.as_ref().unwrap().is_stale);
+    assert!(bench.face().is_stale);
     bench.keys("u");
 
     // Somebody else's change of the file is not written over.
@@ -178,7 +176,7 @@ fn a_face_is_followed_shown_and_its_ratios_edited_and_what_was_tracked_stays() {
     let mut bench = bench(copied(&shots, &frames), Colours::True);
     // A clip that is opened is followed of itself, once; T does it again.
     bench.keys("Enter Enter");
-    let clip = |b: &Bench| b.studio.state.clip().unwrap().clone();
+    let clip = |b: &Bench| b.clip().clone();
     let said = bench.message();
     assert_eq!(clip(&bench).record.as_ref().map(|r| r.rows.len()), Some(14), "{said}");
     assert!(said.contains("14 frames") && said.contains("d goes there"), "{said}");
@@ -194,7 +192,7 @@ fn a_face_is_followed_shown_and_its_ratios_edited_and_what_was_tracked_stays() {
 
     // The frame of the cursor beside the drawing, on narrow screens too.
     bench.keys("Home V");
-    let shown = |b: &Bench| b.studio.state.footage.picture(0).map(|p| p.pixels()[0]);
+    let shown = |b: &Bench| b.editor().borrow().footage.picture().map(|p| p.pixels()[0]);
     let first = shown(&bench).unwrap();
     for (width, height) in [(60, 20), (80, 24), (160, 48)] {
         let with = bench.screen(width, height).matches('▀').count();
@@ -211,10 +209,10 @@ fn a_face_is_followed_shown_and_its_ratios_edited_and_what_was_tracked_stays() {
     bench.keys("s");
     let file = bench.dir.path().join("nihao/clips/xiyang/ratios.csv");
     let tracked = std::fs::read_to_string(&file).unwrap();
-    let happy = |b: &Bench| b.studio.state.editor.as_ref().unwrap().timeline.ratios(0.16)[Emotion::Happy];
+    let happy = |b: &Bench| b.editor().borrow().timeline.ratios(0.16)[Emotion::Happy];
     let before = happy(&bench);
     bench.keys("Home v End v 'happy *0.5 +0.3, smooth 0.08' Enter");
-    assert!(bench.studio.state.is_unsaved(), "{}", bench.message());
+    assert!(bench.studio.is_unsaved(), "{}", bench.message());
     assert!((happy(&bench) - before).abs() > 0.05, "{} {before}", happy(&bench));
     bench.keys("s");
     assert_eq!(std::fs::read_to_string(&file).unwrap(), tracked);
@@ -229,7 +227,7 @@ fn a_face_is_followed_shown_and_its_ratios_edited_and_what_was_tracked_stays() {
     std::fs::write(&file, tracked.replace(",0.9", ",0.8")).unwrap();
     bench.keys("q q d Enter Enter T");
     assert!(bench.message().contains("T again"), "{}", bench.message());
-    assert!(!bench.studio.state.is_unsaved());
+    assert!(!bench.studio.is_unsaved());
     bench.keys("T");
     assert!(bench.message().contains("followed the face"), "{}", bench.message());
     bench.keys("V");

@@ -201,11 +201,11 @@ impl Lesson {
     }
 
     /// Drops every change that is not in the files: the journal forgets them, so that no later run brings them back,
-    /// and the lesson in memory, which still has them, is given up.
+    /// and the lesson in memory, which still has them, is to be given up.
     ///
     /// # Errors
     /// When the journal cannot be emptied.
-    pub fn discard(mut self) -> Result<()> {
+    pub fn discard(&mut self) -> Result<()> {
         self.journal.as_mut().map_or(Ok(()), Journal::clear)
     }
 }

@@ -1,59 +1,30 @@
-//! The studio: lessons, clips and timelines on a terminal, edited by keys.
+//! The studio: projects, clips and timelines on a terminal, edited by keys.
 //!
-//! The way of a key: `terminal` reads it, the key table (`keys`) turns it into an [`Action`], `execute` alone carries
-//! that out on the [`State`], and `draw` shows the state and decides nothing. Work that takes time runs in threads
-//! (`work`) and reports back. The studio owns no lesson data: every edit is a change of the lesson.
+//! The way of a key: `app::terminal` reads it, the key table (`app::keys`) turns it into an [`Action`], and the stack of
+//! screens (`app::stack`) carries it out: the top screen takes it or passes it on. Each screen (`screens`) has its state,
+//! its actions and its drawing, and there is no screen without what it needs. Work that takes time is a `Job` that runs in
+//! a thread and comes back to the stack. The studio owns no project data: every edit is a change of the project.
 
-mod action;
-mod aligning;
-mod boundary;
-mod calibrating;
-mod draw;
-mod edits;
-mod editor;
-mod execute;
-mod export;
-mod face_desk;
-mod face_edits;
-mod following;
-mod job;
-mod keys;
-mod lane;
-mod line;
-mod listening;
-mod look;
-mod overlay;
-mod photo_picture;
-mod picture;
-mod places;
+mod app;
 mod player;
-mod run;
-mod state;
-#[allow(clippy::module_inception, reason = "it is the studio itself")]
-mod studio;
-mod tap_desk;
-mod tapping;
-mod terminal;
-mod typed;
-mod voice;
-mod window;
-mod wording;
-mod work;
+mod screens;
+mod widgets;
 
-pub use action::{Action, Nudge};
-pub use aligning::{Aligner, Aligning, Spotted};
-pub use editor::{Editor, LaneKey, Left};
-pub use export::{ExportRequest, Exporter, Progress, export};
-pub use face_desk::{FaceDesk, Placing};
-pub use keys::{Place, key_table_markdown};
-pub use lane::Lane;
-pub use line::Line;
-pub use listening::{Listened, SoundView, Tone};
-pub use look::Colours;
-pub use overlay::{Overlay, Prompt, Purpose};
+pub use app::action::{Action, Nudge};
+pub use app::aligner::Aligner;
+pub use app::colours::Colours;
+pub use app::export::{ExportRequest, Exporter, Progress, export};
+pub use app::keys::{Place, key_table_markdown};
+pub use app::lane::Lane;
+pub use app::project::{OpenProject, SharedProject};
+pub use app::run::run;
+pub use app::shell::{Hear, Message, Shell};
+pub use app::stack::{Report, Screen, SharedEditor, Stack};
+pub use app::studio::Studio;
 pub use player::{Caption, Played, Player, Show, play, play_live};
-pub use run::run;
-pub use state::{Hear, Listed, Message, Open, State};
-pub use studio::{Report, Studio};
-pub use tapping::{Phase, Tap, Tapping};
-pub use window::Window;
+pub use screens::face::desk::FaceDesk;
+pub use screens::face::page::FaceScreen;
+pub use screens::tapping::TappingScreen;
+pub use screens::tapping::clock::{Phase, Tap, Tapping};
+pub use screens::timeline::editor::Editor;
+pub use screens::timeline::window::Window;

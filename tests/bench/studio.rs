@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark may stop")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use lianpu::studio::{Colours, State, Studio};
+use lianpu::studio::{Colours, Studio};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 
@@ -28,8 +28,9 @@ fn keys(c: &mut Criterion) {
         wav.write_sample((i.wrapping_mul(2_654_435_761) >> 17) as i16 / 4).unwrap();
     }
     wav.finalize().unwrap();
-    let state = State::new(folder.path(), Colours::True).unwrap();
-    let mut studio = Studio::new(state, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())));
+    let mut studio =
+        Studio::new(folder.path(), Colours::True, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())))
+            .unwrap();
     let mut terminal = Terminal::new(TestBackend::new(200, 50)).unwrap();
     for key in ["Enter", "Enter"] {
         studio.key(key);

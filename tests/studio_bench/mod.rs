@@ -5,9 +5,9 @@
 use std::path::Path;
 
 use lianpu::disk::Fault;
-use lianpu::project::AlignJob;
+use lianpu::project::{AlignJob, Clip};
 use lianpu::speech::{Alignment, Note, SpokenPhone, SpokenSyllable};
-use lianpu::studio::{Aligner, Colours, Exporter, State, Studio};
+use lianpu::studio::{Aligner, Colours, Exporter, FaceDesk, FaceScreen, SharedEditor, Studio, Tapping, TappingScreen};
 use lianpu::timeline::{KeyValue, Track};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -100,7 +100,7 @@ impl Bench {
     pub fn with(times: Option<[(f64, f64); 2]>, more: &[(&str, &str)], exporter: Exporter) -> Self {
         let dir = tempfile::tempdir().unwrap();
         lesson(&dir.path().join("nihao"), times, more);
-        let studio = Studio::new(State::new(dir.path(), Colours::None).unwrap(), exporter);
+        let studio = Studio::new(dir.path(), Colours::None, exporter).unwrap();
         // The tones of this lesson are no voice.
         let deaf = Aligner::new(|_| vec![(0, Err(Fault::new("no voice is heard").help("record it again")))]);
         let mut bench = Self { studio: studio.with_aligner(deaf), dir };
@@ -112,10 +112,9 @@ impl Bench {
     pub fn aligning(times: Option<[(f64, f64); 2]>, found: Alignment) -> Self {
         let dir = tempfile::tempdir().unwrap();
         lesson(&dir.path().join("nihao"), times, &[]);
-        let studio = Studio::new(
-            State::new(dir.path(), Colours::None).unwrap(),
-            Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())),
-        );
+        let studio =
+            Studio::new(dir.path(), Colours::None, Box::new(|_, _, _| Ok(lianpu::export::CourseReport::default())))
+                .unwrap();
         let aligner = Aligner::new(move |_: &AlignJob| vec![(0, Ok(found.clone()))]);
         let mut bench = Self { studio: studio.with_aligner(aligner), dir };
         bench.keys("Enter Enter");
@@ -137,20 +136,46 @@ impl Bench {
         self
     }
 
+    /// The clip on the timeline.
+    pub fn clip(&self) -> Clip {
+        let number = self.editor().borrow().clip;
+        self.studio.project().unwrap().borrow().lesson.clips[number].clone()
+    }
+
+    /// The editor of the clip on the timeline.
+    pub fn editor(&self) -> SharedEditor {
+        self.studio.editor().unwrap()
+    }
+
+    /// The page of a face.
+    pub fn face(&self) -> &FaceDesk {
+        &self.studio.stack.find::<FaceScreen>().unwrap().desk
+    }
+
+    /// What is being tapped.
+    pub fn tapping(&self) -> Option<&Tapping> {
+        self.studio.stack.find::<TappingScreen>().map(|screen| &screen.tapping)
+    }
+
+    /// Whether a box lies on top of the page.
+    pub fn has_box(&self) -> bool {
+        !self.studio.stack.screens.last().unwrap().is_page()
+    }
+
     pub fn times(&self) -> Vec<(f64, f64)> {
-        self.studio.state.clip().unwrap().intervals().iter().map(|i| (i.start, i.end)).collect()
+        self.clip().intervals().iter().map(|i| (i.start, i.end)).collect()
     }
 
     pub fn cursor(&self) -> f64 {
-        self.studio.state.editor.as_ref().unwrap().cursor
+        self.editor().borrow().cursor
     }
 
     pub fn message(&self) -> String {
-        self.studio.state.message.as_ref().map_or(String::new(), |m| m.text.clone())
+        self.studio.shell().message.as_ref().map_or(String::new(), |m| m.text.clone())
     }
 
     pub fn keys_of(&self, track: Track) -> Vec<(f64, KeyValue)> {
-        let clip = self.studio.state.clip().unwrap();
+        let clip = self.clip();
         clip.score.sorted_keys().filter(|k| k.value.track() == track).map(|k| (k.time, k.value)).collect()
     }
 

@@ -10,9 +10,10 @@ use crate::disk::Result;
 use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::project::Lesson;
-use crate::studio::look::Colours;
-use crate::studio::run::turn;
-use crate::studio::{Action, draw};
+use crate::studio::app::action::Action;
+use crate::studio::app::colours::Colours;
+use crate::studio::app::run::turn;
+use crate::studio::widgets::text;
 use crate::timeline::Timeline;
 
 /// Something to play.
@@ -170,7 +171,7 @@ impl Playback for ClipPlayback {
     fn caption(&self, buffer: &mut Buffer, row: Rect) {
         let (captions, time) = (&self.captions, self.time());
         if captions.is_empty() {
-            draw::put_short(buffer, row.x, row.y, row.width, &self.title, Style::new());
+            text::put_short(buffer, row.x, row.y, row.width, &self.title, Style::new());
             return;
         }
         let next = captions.partition_point(|c| c.start <= time + 1e-9);
@@ -178,7 +179,7 @@ impl Playback for ClipPlayback {
         // As many before now as fill a third of the line.
         let (mut first, mut used) = (next.saturating_sub(1), 0);
         while let Some(before) = first.checked_sub(1) {
-            used += draw::cells(&captions[before].text) + 1;
+            used += text::cells(&captions[before].text) + 1;
             if used > row.width / 3 {
                 break;
             }
@@ -188,10 +189,10 @@ impl Playback for ClipPlayback {
         for (index, caption) in captions.iter().enumerate().skip(first) {
             let style = if Some(index) == now { Style::new().add_modifier(Modifier::REVERSED) } else { Style::new() };
             let room = row.right().saturating_sub(x);
-            if draw::cells(&caption.text) > room {
+            if text::cells(&caption.text) > room {
                 break;
             }
-            x += draw::put(buffer, x, row.y, room, &caption.text, style) + 1;
+            x += text::put(buffer, x, row.y, room, &caption.text, style) + 1;
         }
     }
 }
@@ -199,7 +200,7 @@ impl Playback for ClipPlayback {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studio::run::Desk;
+    use crate::studio::app::run::Desk;
     use crate::timeline::{Score, Sources};
 
     fn player() -> Player<ClipPlayback> {

@@ -13,9 +13,10 @@ use crate::disk::{Fault, Result};
 use crate::figure::Figure;
 use crate::pose::{MouthPreset, Pose};
 use crate::ratios::{Moment, Record, Tracks};
-use crate::studio::look::Colours;
-use crate::studio::run::turn;
-use crate::studio::{Action, draw};
+use crate::studio::app::action::Action;
+use crate::studio::app::colours::Colours;
+use crate::studio::app::run::turn;
+use crate::studio::widgets::text;
 use crate::timeline::{Score, Sources, Timeline};
 
 /// Time goes on for so many seconds while nothing arrives: what a line stammers is caught up with, what pauses for longer
@@ -237,7 +238,7 @@ impl Playback for LivePlayback {
     }
 
     fn caption(&self, buffer: &mut Buffer, row: Rect) {
-        draw::put_short(buffer, row.x, row.y, row.width, &self.title, Style::new());
+        text::put_short(buffer, row.x, row.y, row.width, &self.title, Style::new());
     }
 }
 
@@ -260,7 +261,7 @@ mod tests {
     use crate::figure::LineFigure;
     use crate::pose::Ratios;
     use crate::ratios::Row;
-    use crate::studio::run::Desk;
+    use crate::studio::app::run::Desk;
 
     fn player() -> Player<LivePlayback> {
         let figure = LineFigure::built_in("line").unwrap().into();

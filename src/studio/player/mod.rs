@@ -12,14 +12,16 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::Action;
-use super::draw;
-use super::keys::{self, Place};
-use super::look::Colours;
-use super::picture::FacePicture;
-use super::run::Desk;
 use crate::figure::Figure;
 use crate::pose::Pose;
+use crate::studio::app::action::Action;
+use crate::studio::app::colours::Colours;
+use crate::studio::app::keys::{self, Place};
+use crate::studio::app::run::Desk;
+use crate::studio::widgets::boxed;
+use crate::studio::widgets::foot::{Foot, foot};
+use crate::studio::widgets::picture::FacePicture;
+use crate::studio::widgets::text;
 
 pub use clip::{Caption, Show, play};
 pub use live::{Played, play_live};
@@ -119,7 +121,7 @@ impl<P: Playback> Player<P> {
     pub fn draw(&mut self, frame: &mut Frame<'_>) {
         let area = frame.area();
         let buffer = frame.buffer_mut();
-        self.too_small = draw::is_too_small(buffer, area);
+        self.too_small = text::is_too_small(buffer, area);
         if self.too_small {
             return;
         }
@@ -128,14 +130,14 @@ impl<P: Playback> Player<P> {
         self.face.put(buffer, face);
         let y = area.bottom() - 2;
         let status = self.playback.status();
-        let right = draw::cells(&status);
-        draw::put(buffer, area.right().saturating_sub(right + 1), y, right, &status, Style::new());
+        let right = text::cells(&status);
+        text::put(buffer, area.right().saturating_sub(right + 1), y, right, &status, Style::new());
         self.playback.caption(buffer, Rect::new(area.x + 1, y, area.width.saturating_sub(right + 4), 1));
         if self.help {
-            draw::help(buffer, area, Place::Player, 0);
+            boxed::help(buffer, area, Place::Player, 0);
         }
-        let foot = draw::Foot { place: self.place(), lane: None, opens: false, message: None, busy: None };
-        draw::foot(buffer, area, foot, self.colours);
+        let at_foot = Foot { place: self.place(), lane: None, opens: false, message: None, busy: None };
+        foot(buffer, area, at_foot, self.colours);
     }
 }
 

@@ -1,0 +1,150 @@
+//! What is said, syllable by syllable, under the sound: its text between its boundaries, its Pinyin below.
+
+use ratatui::buffer::Buffer;
+use ratatui::style::{Modifier, Style};
+
+use super::Layout;
+use crate::project::Clip;
+use crate::studio::app::colours::Colours;
+use crate::studio::screens::timeline::editor::Editor;
+use crate::studio::widgets::text::{BOLD, CHOSEN, DIM, cells, put};
+
+pub(super) fn syllables(buffer: &mut Buffer, layout: &Layout, editor: &Editor, clip: &Clip, colours: Colours) {
+    let (window, columns) = (editor.window, layout.columns());
+    if clip.intervals().is_empty() && editor.places.is_empty() {
+        let how = if clip.sound.is_some() {
+            "no script: m marks where syllables are heard"
+        } else {
+            "no script: write a script.txt"
+        };
+        put(buffer, layout.said.x, layout.said.y, columns, how, DIM);
+        return;
+    }
+    places(buffer, layout, editor);
+    let doubts = clip.doubts();
+    beside(buffer, layout, editor, &doubts, colours);
+    let inside = |i: &&crate::timing::Interval| i.end > window.from && i.start < window.to();
+    let many = clip.intervals().iter().filter(inside).count();
+    if many > usize::from(columns) {
+        let text = format!("{many} syllables: + shows fewer, closer");
+        put(buffer, layout.said.x + 1, layout.said.y, columns - 1, &text, DIM);
+        return;
+    }
+    let needs_all = |(s, i): (&crate::script::Syllable, &crate::timing::Interval)| {
+        let room = window.column(i.end, columns) - window.column(i.start, columns);
+        room <= 2 && room <= i32::from(cells(&s.text))
+    };
+    // A few boundaries among many would group syllables that do not belong together: it is all of them or none, and
+    // then every second syllable is underlined.
+    let crowded = clip.syllables.iter().zip(clip.intervals()).filter(|(_, i)| inside(i)).any(needs_all);
+    let mut last_end = -1;
+    let mut any_guessed = false;
+    // Both lists rise.
+    let mut unsure = doubts.iter().filter_map(|d| d.syllable).peekable();
+    for (index, (syllable, interval)) in clip.syllables.iter().zip(clip.intervals()).enumerate() {
+        let is_unsure = unsure.next_if_eq(&index).is_some();
+        let (start, end) = (window.column(interval.start, columns), window.column(interval.end, columns));
+        if end < 0 || start >= i32::from(columns) {
+            continue;
+        }
+        let chosen = editor.syllable == Some(index);
+        let guessed = Editor::is_guessed(clip, index);
+        let doubtful = !guessed && is_unsure;
+        let row = layout.said;
+        let at = |column: i32| row.x + column.clamp(0, i32::from(columns)) as u16;
+        let line = if crowded && index % 2 == 1 { Modifier::UNDERLINED } else { Modifier::empty() };
+        let style = if chosen { CHOSEN } else { Style::new() }.add_modifier(line);
+        if chosen || !line.is_empty() {
+            for x in at(start)..at(end).max(at(start) + 1).min(row.right()) {
+                put(buffer, x, row.y, 1, " ", style);
+            }
+        }
+        // The boundary, then the text.
+        let bounded = start >= 0 && !crowded;
+        if bounded {
+            put(buffer, at(start), row.y, 1, "│", style);
+        }
+        let inside = at(start + i32::from(bounded));
+        let room = at(end).saturating_sub(inside);
+        let mut used = put(buffer, inside, row.y, room, &syllable.text, style.patch(BOLD));
+        if used == 0 && room > 0 {
+            let sign = if doubtful { ("!", style.patch(colours.warning())) } else { ("·", style) };
+            used = put(buffer, inside, row.y, 1, sign.0, sign.1);
+        } else if doubtful {
+            used += put(buffer, inside + used, row.y, room - used, "!", style.patch(colours.warning()));
+            if used <= cells(&syllable.text) {
+                // Where there is no room for the sign, the text itself is marked.
+                let marked = colours.warning().add_modifier(Modifier::ITALIC | Modifier::UNDERLINED);
+                buffer.set_style(ratatui::layout::Rect::new(inside, row.y, used, 1), marked);
+            }
+        } else if guessed {
+            used += put(buffer, inside + used, row.y, room - used, "?", style.patch(colours.warning()));
+        }
+        any_guessed |= guessed;
+        debug_assert!(used <= room.max(1), "a syllable stays inside its time");
+        // Where nothing follows at once, the end is drawn too.
+        let follows = clip.intervals().get(index + 1).is_some_and(|next| window.column(next.start, columns) <= end);
+        if !follows && !crowded && (0..i32::from(columns)).contains(&end) {
+            put(buffer, at(end), row.y, 1, "│", Style::new());
+        }
+        let below = layout.pinyin;
+        let free = at(end).saturating_sub(inside.max(at(last_end)));
+        if cells(&syllable.pinyin) <= free.max(1) && !syllable.pinyin.is_empty() {
+            let style = if guessed { Style::new().add_modifier(Modifier::ITALIC) } else { Style::new() };
+            let used = put(buffer, inside.max(at(last_end)), below.y, free, &syllable.pinyin, style);
+            last_end = i32::from(inside.max(at(last_end)) + used + 1) - i32::from(row.x);
+        }
+    }
+    // Where there is no room for the marks, the margin has one.
+    let margin = match doubts.len() {
+        _ if any_guessed => "guessed?".to_owned(),
+        0 => return,
+        many => format!("{many} ! (d)"),
+    };
+    put(buffer, layout.area.x + 1, layout.pinyin.y, layout.pinyin.x - 1, &margin, colours.warning());
+}
+
+/// The places where syllables are heard and no words are yet.
+fn places(buffer: &mut Buffer, layout: &Layout, editor: &Editor) {
+    let (window, columns, row) = (editor.window, layout.columns(), layout.said);
+    for (from, to) in &editor.places {
+        let (start, end) = (window.column(*from, columns), window.column(*to, columns));
+        if end < 0 || start >= i32::from(columns) {
+            continue;
+        }
+        let at = |column: i32| row.x + column.clamp(0, i32::from(columns)) as u16;
+        let here = *from - 1e-6 <= editor.cursor && editor.cursor < *to;
+        let style = if here { CHOSEN } else { Style::new() };
+        for x in at(start)..at(end).max(at(start) + 1).min(row.right()) {
+            put(buffer, x, row.y, 1, " ", style);
+        }
+        if start >= 0 {
+            put(buffer, at(start), row.y, 1, "│", style);
+        }
+        let follows = editor.places.iter().any(|p| (p.0 - to).abs() < 0.02);
+        if !follows && (0..i32::from(columns)).contains(&end) {
+            put(buffer, at(end), row.y, 1, "│", Style::new());
+        }
+        let middle = i32::midpoint(start + 1, end);
+        if (0..i32::from(columns)).contains(&middle) && middle > start {
+            put(buffer, at(middle), row.y, 1, "○", style);
+        }
+    }
+}
+
+/// Stretches where something is said that the script does not have.
+fn beside(buffer: &mut Buffer, layout: &Layout, editor: &Editor, doubts: &[crate::project::Doubt], colours: Colours) {
+    const WORDS: &str = "not in the script";
+    let (window, columns, row) = (editor.window, layout.columns(), layout.said);
+    for doubt in doubts.iter().filter(|d| d.what == crate::project::Concern::NotInScript) {
+        let (start, end) = (window.column(doubt.start, columns), window.column(doubt.end, columns));
+        let (first, last) = (start.max(0), end.min(i32::from(columns)));
+        for column in first..last {
+            put(buffer, row.x + column as u16, row.y, 1, "░", colours.warning());
+        }
+        let room = u16::try_from(last - first).unwrap_or(0);
+        if room > cells(WORDS) + 2 {
+            put(buffer, row.x + first as u16 + 1, row.y, room, WORDS, colours.warning());
+        }
+    }
+}
