@@ -86,6 +86,12 @@ impl OpenProject {
         }
     }
 
+    /// How often it and its faces were changed.
+    #[must_use]
+    pub const fn counts(&self) -> (u64, u64) {
+        (self.revision, self.faces_revision)
+    }
+
     /// How it stands, for the line at the top.
     #[must_use]
     pub fn standing(&self, colours: Colours) -> (&'static str, Style) {

@@ -290,7 +290,7 @@ impl Screen for TappingScreen {
             panel: &|buffer, area| draw::panel(buffer, area, shell, &self.tapping, clip),
             marks: &|buffer, layout| draw::marks(buffer, layout, shell, &editor, &self.tapping),
         };
-        timeline::timeline(view, &project, &editor, &self.face, Some(over));
+        timeline::timeline(view, &project, &editor, &self.face, Some(&over));
         None
     }
 }

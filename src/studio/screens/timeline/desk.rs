@@ -27,7 +27,7 @@ impl ClipDesk<'_, '_> {
     pub fn change(&mut self, change: Change) -> bool {
         let made = self.project.change(change, self.cx.shell);
         if made {
-            self.editor.sync(self.project);
+            self.editor.sync(&self.project.lesson, self.project.counts());
         }
         made
     }

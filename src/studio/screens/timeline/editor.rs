@@ -1,13 +1,12 @@
 //! A clip on the desk: its built timeline, the cursor, what is selected and what is shown of it.
 
-use super::footage::Footage;
 use super::free_places::free;
+use super::video::Footage;
 use super::window::Window;
 use crate::figure::Figure;
 use crate::pose::Pose;
 use crate::project::{Clip, Lesson};
 use crate::studio::app::lane::Lane;
-use crate::studio::app::project::OpenProject;
 use crate::timeline::{Key, KeyValue, MouthKey, Origin, Timeline, Track};
 
 /// What is shown of a longer clip at first, in seconds: as much as 80 columns can show syllable by syllable.
@@ -78,8 +77,7 @@ impl LaneKey {
 impl Editor {
     /// Opens a clip at its start.
     #[must_use]
-    pub fn new(project: &OpenProject, clip: usize, figure: Figure) -> Self {
-        let lesson = &project.lesson;
+    pub fn new(lesson: &Lesson, clip: usize, figure: Figure, shown: (u64, u64)) -> Self {
         let timeline = lesson.timeline(clip, None);
         let mut editor = Self {
             clip,
@@ -95,7 +93,7 @@ impl Editor {
             loudest: None,
             places: Vec::new(),
             footage: Footage::default(),
-            shown: (project.revision, project.faces_revision),
+            shown,
         };
         editor.rebuild(lesson);
         editor
@@ -115,13 +113,11 @@ impl Editor {
         self.syllable = left.syllable.filter(|s| *s < clip.syllables.len()).or(self.syllable);
     }
 
-    /// Shows the project as it is now; whether it has changed.
-    pub fn sync(&mut self, project: &OpenProject) -> bool {
-        let now = (project.revision, project.faces_revision);
+    /// Shows the project as it is now, after so many changes of it and of its faces; whether it has changed.
+    pub fn sync(&mut self, lesson: &Lesson, now: (u64, u64)) -> bool {
         if self.shown == now {
             return false;
         }
-        let lesson = &project.lesson;
         if self.shown.1 != now.1
             && let Ok(figure) = lesson.figure_of(&lesson.clips[self.clip].entry)
         {

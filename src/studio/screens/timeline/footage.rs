@@ -16,26 +16,6 @@ const KEPT_SIDE: usize = 360;
 /// The fault where a video or a frame of it cannot be read.
 const BROKEN: [&str; 2] = ["the photo cannot be looked at", "save it again as PNG and try that"];
 
-/// The video of a clip, a frame of it at a time.
-#[derive(Debug, Default)]
-pub struct Footage {
-    source: Option<Source>,
-    /// Whether a thread is opening it.
-    opening: bool,
-    /// The frame that was read last, by its number.
-    frame: Option<(u32, Arc<Photo>)>,
-    /// The frame that a thread is reading.
-    reading: Option<u32>,
-}
-
-impl Footage {
-    /// The frame that was read last.
-    #[must_use]
-    pub fn picture(&self) -> Option<&Photo> {
-        self.frame.as_ref().map(|f| &*f.1)
-    }
-}
-
 /// Shows the video beside the drawing, or not.
 pub(super) fn show(project: &OpenProject, editor: &mut Editor, cx: &mut Context<'_>) {
     if project.lesson.clips[editor.clip].video.is_none() {

@@ -15,14 +15,16 @@ mod moving;
 pub(in crate::studio) mod opening;
 mod places;
 mod typed;
+mod video;
 pub(in crate::studio) mod window;
 
 use ratatui::layout::{Position, Rect};
 
 use self::desk::ClipDesk;
 use self::draw::Layout;
+use super::project::checking;
 use super::tapping::TappingScreen;
-use super::{exporting, face, project};
+use super::{exporting, face};
 use crate::studio::app::action::Action;
 use crate::studio::app::keys::Place;
 use crate::studio::app::project::SharedProject;
@@ -70,7 +72,7 @@ fn on_clip(desk: &mut ClipDesk<'_, '_>, action: Action) -> bool {
     let number = desk.editor.clip;
     match action {
         Action::Undo | Action::Redo => desk.project.retrace(action, desk.cx.shell),
-        Action::Save => project::checking::save(desk.project, desk.cx),
+        Action::Save => checking::save(desk.project, desk.cx),
         Action::Align => aligning::start(desk.project, number, true, desk.cx),
         Action::Follow => following::ask(desk.project, number, desk.cx),
         Action::Video => footage::show(desk.project, desk.editor, desk.cx),
@@ -131,7 +133,7 @@ impl Screen for TimelineScreen {
 
     fn refresh(&mut self, cx: &mut Context<'_>) {
         self.with(cx, |desk| {
-            desk.editor.sync(desk.project);
+            desk.editor.sync(&desk.project.lesson, desk.project.counts());
             listening::missing(desk.project, desk.editor, desk.cx);
             footage::missing(desk.project, desk.editor, desk.cx);
         });

@@ -20,7 +20,7 @@ pub(in crate::studio) fn open(shared: &SharedProject, project: &mut OpenProject,
         Err(fault) => return cx.shell.say_fault(&fault),
     };
     project.replace_asked = false;
-    let mut editor = Editor::new(project, number, figure);
+    let mut editor = Editor::new(&project.lesson, number, figure, project.counts());
     if let Some(left) = project.left.get(&number) {
         editor.go_back(clip, *left);
     }

@@ -40,7 +40,7 @@ pub(in crate::studio) fn timeline(
     project: &OpenProject,
     editor: &Editor,
     face: &FacePicture,
-    over: Option<Over<'_>>,
+    over: Option<&Over<'_>>,
 ) {
     let (lesson, shell) = (&project.lesson, view.shell);
     let (clip, colours) = (&lesson.clips[editor.clip], shell.colours);
@@ -57,7 +57,7 @@ pub(in crate::studio) fn timeline(
     if let Some(photo) = editor.footage.picture().filter(|_| layout.video.width > 0) {
         photo_picture::frame(buffer, layout.video, photo, colours);
     }
-    match &over {
+    match over {
         Some(over) => (over.panel)(buffer, layout.panel),
         None => bars::panel(buffer, layout.panel, editor, clip, colours),
     }
@@ -65,7 +65,7 @@ pub(in crate::studio) fn timeline(
     let on = |lane| editor.lane == lane;
     ruler(buffer, layout, editor);
     lost(buffer, layout, editor, clip, colours);
-    if let Some(over) = &over {
+    if let Some(over) = over {
         (over.marks)(buffer, layout);
     }
     if layout.wave.height > 0 {
