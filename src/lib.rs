@@ -19,6 +19,9 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! Features: `cli` (the command line) and `studio` (the studio and the player in a terminal), both on unless
+//! `default-features = false` asks for the rooms alone.
 
 pub mod geometry;
 pub mod pose;
@@ -41,5 +44,7 @@ pub mod render;
 pub mod project;
 pub mod forms;
 pub mod export;
+#[cfg(feature = "studio")]
 pub mod studio;
+#[cfg(feature = "cli")]
 pub mod cli;

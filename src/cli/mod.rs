@@ -12,12 +12,16 @@ mod face;
 mod farm;
 mod frames_done;
 mod live;
+#[cfg(feature = "studio")]
+mod keys;
 mod merge;
 mod new;
 mod output;
+#[cfg(feature = "studio")]
 mod play;
 mod plot;
 mod print;
+#[cfg(feature = "studio")]
 mod studio;
 mod syllables;
 mod times;
@@ -62,6 +66,7 @@ enum Command {
     Track(track::Args),
     /// Train, fit and look at active appearance models of faces.
     Aam(aam::Args),
+    #[cfg(feature = "studio")]
     /// Play a clip's face in the terminal.
     Play(play::Args),
     /// Draw charts of a clip: ratios, change, timeline, faces, a frame.
@@ -70,6 +75,9 @@ enum Command {
     Convert(convert::Args),
     /// Print the syllables of a text with their readings and mouth shapes.
     Syllables(syllables::Args),
+    /// Print the keys of the studio and of the player.
+    #[cfg(feature = "studio")]
+    Keys(keys::Args),
     /// Print what makes a shell complete this program's words.
     Completions(completions::Args),
 }
@@ -130,11 +138,15 @@ pub fn run(cli: &Cli, out: &mut dyn Write) -> Result<()> {
         Some(Command::Calibrate(args)) => calibrate::run(args, out),
         Some(Command::Track(args)) => track::run(args, out),
         Some(Command::Aam(args)) => aam::run(args, out),
+        #[cfg(feature = "studio")]
         Some(Command::Play(args)) => play::run(args),
+        #[cfg(feature = "studio")]
+        Some(Command::Keys(args)) => keys::run(args, out),
         Some(Command::Plot(args)) => plot::run(args, out),
         Some(Command::Convert(args)) => convert::run(args, out),
         Some(Command::Syllables(args)) => syllables::run(args, out),
         Some(Command::Completions(args)) => completions::run(args, out),
+        #[cfg(feature = "studio")]
         None if studio::is_possible() => studio::open(cli.folder.as_deref()),
         // A script that calls it by mistake must not wait for ever.
         None => {

@@ -14,7 +14,7 @@ pub use app::action::{Action, Nudge};
 pub use app::aligner::Aligner;
 pub use app::colours::Colours;
 pub use app::export::{ExportRequest, Exporter, Progress, export};
-pub use app::keys::{Place, key_table_markdown};
+pub use app::keys::{Place, key_list};
 pub use app::lane::Lane;
 pub use app::project::{OpenProject, SharedProject};
 pub use app::run::run;

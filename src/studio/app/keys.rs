@@ -1,5 +1,5 @@
 //! The one key table: which keys ask for what, where, and what the help says of it. Dispatch, the hints at the foot of
-//! the screen, the help and the README are made from it.
+//! the screen, the help and `lianpu keys` are made from it.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -38,7 +38,7 @@ pub enum Place {
 }
 
 impl Place {
-    /// The screens, as the README lists them.
+    /// The screens, as `lianpu keys` lists them.
     const LISTED: [(Self, &'static str); 10] = [
         (Self::Projects, "Lessons"),
         (Self::Lesson, "A lesson"),
@@ -361,20 +361,20 @@ pub fn hints_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
     TABLE.iter().filter(move |r| r.places.contains(&place) && !r.hint.is_empty()).map(move |r| (keys(r), r.hint))
 }
 
-/// The whole table as Markdown, for the README.
+/// The whole table as text: each place with its keys and what they do.
 #[must_use]
-pub fn key_table_markdown() -> String {
+pub fn key_list() -> String {
     let mut out = String::new();
     for (place, title) in Place::LISTED {
-        out.push_str(&format!("**{title}**\n\n| Keys | What they do |\n| --- | --- |\n"));
-        for row in TABLE.iter().filter(|r| r.places.contains(&place)) {
-            let keys: Vec<String> = row.keys.iter().map(|(k, _)| format!("`{}`", shown(k))).collect();
-            out.push_str(&format!("| {} | {} |\n", keys.join(" "), row.help));
+        out.push_str(&format!("{title}\n"));
+        let rows: Vec<(String, &str)> = help_of(place).collect();
+        let widest = rows.iter().map(|(keys, _)| keys.chars().count()).max().unwrap_or(0);
+        for (keys, help) in rows {
+            out.push_str(&format!("  {keys:widest$}  {help}\n"));
         }
         out.push('\n');
     }
     out.truncate(out.trim_end().len());
-    out.push('\n');
     out
 }
 
@@ -397,10 +397,12 @@ mod tests {
     }
 
     #[test]
-    fn the_table_for_the_readme_has_every_place_and_every_key() {
-        let text = key_table_markdown();
-        assert!(text.contains("| `u` `Ctrl-r` | undo, redo |") && text.contains("**A running export**"), "{text}");
-        println!("{text}");
+    fn the_list_of_keys_has_every_place_and_every_key() {
+        let text = key_list();
+        for (place, title) in Place::LISTED {
+            assert!(text.contains(title), "{title}");
+            assert!(help_of(place).all(|(keys, help)| text.contains(&keys) && text.contains(help)), "{title}: {text}");
+        }
     }
 
     #[test]
