@@ -6,9 +6,9 @@
 //!
 //! The sound is that of `data/speech/self`, over and over.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
+#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark may stop and speak")]
 
-#[path = "../test_data/mod.rs"]
+#[path = "../it/support/test_data.rs"]
 mod test_data;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

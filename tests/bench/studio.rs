@@ -4,7 +4,7 @@
 //! cargo bench --bench studio
 //! ```
 
-#![allow(clippy::unwrap_used, reason = "a benchmark may stop")]
+#![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark may stop")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use lianpu::studio::{Colours, Studio};

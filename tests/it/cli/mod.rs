@@ -1,0 +1,5 @@
+//! The program as its users call it.
+
+mod calls;
+mod escapes;
+mod readme;

@@ -1,0 +1,5 @@
+//! Exports: their frames, parts and manifests.
+
+mod frames;
+mod merge;
+mod parts;

@@ -1,0 +1,6 @@
+//! From a photo to a face: found, measured, moved.
+
+mod measures;
+mod points;
+mod rig;
+mod teacher;

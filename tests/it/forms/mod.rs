@@ -1,0 +1,4 @@
+//! The forms of export that hold a clip or a project whole.
+
+mod movies;
+mod whole;

@@ -1,0 +1,4 @@
+//! Photos read, and the stages of the search in them.
+
+mod files;
+mod stages;

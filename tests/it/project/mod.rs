@@ -1,0 +1,5 @@
+//! Projects on disk.
+
+mod lessons;
+mod times;
+mod video;

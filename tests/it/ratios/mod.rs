@@ -1,0 +1,5 @@
+//! Ratios of emotions, and their records.
+
+mod known;
+mod mixes;
+mod record;

@@ -1,0 +1,6 @@
+//! The studio without a terminal.
+
+mod edits;
+mod screens;
+mod speech;
+mod tracking;

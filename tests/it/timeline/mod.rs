@@ -1,0 +1,4 @@
+//! From times to mouths.
+
+mod lips;
+mod mouths;

@@ -1,0 +1,4 @@
+//! Timing files.
+
+mod convert;
+mod formats;
