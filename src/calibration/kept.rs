@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{Calibrated, CalibrationFile, Marks, ShotFiles, calibrate};
 use crate::aam::Model;
-use crate::disk::{Commit, Fault, FileFault, Message, Result, Task, message};
+use crate::disk::{Commit, Fault, FileFault, Message, Result, Sum, Task, message};
 use crate::photo::sha256;
 use crate::pose::Emotion;
 
@@ -114,13 +114,13 @@ impl Kept {
     }
 
     /// Adds its files in a face's folder to a commit: the points of the shots that were found, as `happy.toml` and so on,
-    /// `model.aam`, and `calibration.toml`.
+    /// `model.aam`, and `calibration.toml`. `seen` gives the sums of the points of shots as they were last read.
     ///
     /// # Errors
-    /// When a file that is there cannot be read.
-    pub fn stage(&self, folder: &Path, commit: &mut Commit) -> Result<()> {
+    /// When a file that is there cannot be read, or points were changed by something else since.
+    pub fn stage(&self, folder: &Path, seen: impl Fn(Emotion) -> Option<Sum>, commit: &mut Commit) -> Result<()> {
         for (emotion, marks) in &self.marks {
-            commit.put_over(&folder.join(format!("{emotion}.toml")), marks.to_toml())?;
+            commit.put(&folder.join(format!("{emotion}.toml")), marks.to_toml(), seen(*emotion))?;
         }
         commit.put_over(&folder.join(MODEL), self.made.model.to_bytes())?;
         commit.put_over(&folder.join(CALIBRATION), self.file().to_toml()?)

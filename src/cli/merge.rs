@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::print::{say, say_json, tell};
+use super::print::{note, say, say_json, tell};
 use crate::disk::{Result, shown};
 use crate::export::merge;
 
@@ -24,6 +24,9 @@ pub struct Args {
 /// With what is missing or differs, and the part to be run again.
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let merged = merge(&args.folder)?;
+    if let Some(text) = &merged.note {
+        note(text.as_str());
+    }
     if args.json {
         let line = serde_json::json!({ "path": merged.path.to_string_lossy(), "parts": merged.parts, "files": merged.files,
             "bytes": merged.bytes });

@@ -57,6 +57,13 @@ impl Lock {
     }
 }
 
+impl Drop for Lock {
+    /// Let go at once: a child that was just started has the file too, until it runs its own program.
+    fn drop(&mut self) {
+        let _ = self.file.unlock();
+    }
+}
+
 /// The text of the lock's file while this process holds it.
 fn holder() -> String {
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();

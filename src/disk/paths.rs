@@ -54,6 +54,21 @@ pub fn is_file_there(path: &Path) -> Result<bool> {
         .help("move it away, or put the file in its place"))
 }
 
+/// The path, or where something has it, the same with the first number from 2 on behind it that nothing has.
+#[must_use]
+pub fn free_name(path: &Path) -> PathBuf {
+    let with = |number: u32| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(number.to_string());
+        PathBuf::from(name)
+    };
+    let is_free = |path: &Path| path.symlink_metadata().is_err();
+    if is_free(path) {
+        return path.to_owned();
+    }
+    (2..).map(with).find(|path| is_free(path)).unwrap_or_else(|| path.to_owned())
+}
+
 /// Whether `name` can name a folder or file of ours: letters of any script, digits, `-`, `_` and `.`, not starting
 /// with a dot, at most 100 bytes.
 ///

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::record::{DONE, Entry, RECORD, Record};
-use super::{Calls, Fault, Result, Sum, is_file_there};
+use super::{Calls, Fault, Result, Sum, free_name, is_file_there};
 
 /// The beginning of the names under which files are set aside.
 const ASIDE: &str = "unsaved-";
@@ -145,7 +145,7 @@ impl<'a> Unfinished<'a> {
 
     /// Where a file is set aside: its path below the project, as one name.
     fn aside(&self, file: &Found) -> PathBuf {
-        self.own.join(format!("{ASIDE}{}", file.entry.path.replace('/', "-")))
+        free_name(&self.own.join(format!("{ASIDE}{}", file.entry.path.replace('/', "-"))))
     }
 
     fn close(&self, calls: &mut dyn Calls) -> Result<()> {
@@ -170,6 +170,9 @@ impl<'a> Unfinished<'a> {
     }
 }
 
+/// What a note says of a file that kept a commit from being made whole.
+pub const CHANGED_MEANWHILE: &str = "was changed by something else";
+
 /// Ends the commit that is open in a project, if there is one; what there is to say of that. The caller holds the lock.
 ///
 /// # Errors
@@ -183,7 +186,7 @@ pub fn end_commit(root: &Path, own: &Path, calls: &mut dyn Calls) -> Result<Vec<
             .iter()
             .map(|(path, aside)| {
                 format!(
-                    "{} was changed by something else while it was saved, and is left as it is; {} has what was to be saved",
+                    "{} {CHANGED_MEANWHILE} while it was saved, and is left as it is; {} has what was to be saved",
                     name(path),
                     name(aside)
                 )
@@ -192,9 +195,7 @@ pub fn end_commit(root: &Path, own: &Path, calls: &mut dyn Calls) -> Result<Vec<
         End::Cancelled(foreign) if foreign.is_empty() => Vec::new(),
         End::Cancelled(foreign) => foreign
             .iter()
-            .map(|path| {
-                format!("a save was cut off and is cancelled: {} was changed by something else meanwhile", name(path))
-            })
+            .map(|path| format!("a save was cut off and is cancelled: {} {CHANGED_MEANWHILE} meanwhile", name(path)))
             .collect(),
     })
 }

@@ -51,11 +51,9 @@ impl Rights {
             Self::Usual => return Ok(()),
             Self::AtMost(mode) => now.mode() & 0o777 & mode,
             Self::Same { mode, group } => {
-                if group != now.gid() {
-                    // Allowed to the group's members; others leave a file of their own group.
-                    let _ = fchown(file, None, Some(group));
-                }
-                mode
+                // Allowed to the group's members; the file of another has its own group, which gets what all others have.
+                let is_given = group == now.gid() || fchown(file, None, Some(group)).is_ok();
+                if is_given { mode } else { mode & 0o707 | (mode & 0o7) << 3 & mode }
             }
         };
         if mode == now.mode() & 0o777 {

@@ -119,14 +119,9 @@ impl Ledger {
 
     /// Before anything is written: what has the manifest's name and is none is set aside as a file is.
     pub(super) fn set_manifest_aside(&self) -> Result<()> {
-        let name = Manifest::name(self.shard);
-        let path = self.folder.join(&name);
-        let is_there = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
-        if !is_there || Manifest::read(&path).is_ok() {
-            return Ok(());
+        if let Some(note) = set_manifest_aside(&self.folder, self.shard)? {
+            self.aside.note(note);
         }
-        let aside = put_aside(&path)?;
-        self.aside.note(format!("{name} was there and is no manifest of an export; it is kept as {name}{aside}"));
         Ok(())
     }
 
@@ -207,19 +202,25 @@ impl Ledger {
     }
 }
 
+/// Sets aside what has a manifest's name in a folder and is none; a note for the author.
+pub(super) fn set_manifest_aside(folder: &Path, shard: Shard) -> Result<Option<String>> {
+    let name = Manifest::name(shard);
+    let path = folder.join(&name);
+    let is_there = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
+    if !is_there || Manifest::read(&path).is_ok() {
+        return Ok(None);
+    }
+    let aside = put_aside(&path)?;
+    Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}{aside}")))
+}
+
 /// Renames a file to its name with a `~`, or with `~2` and so on where an earlier one has that. Returns what was added.
 pub(super) fn put_aside(path: &Path) -> Result<String> {
-    let with = |ending: &str| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(ending);
-        PathBuf::from(name)
-    };
-    let (mut ending, mut number) = ("~".to_owned(), 1);
-    while with(&ending).symlink_metadata().is_ok() {
-        number += 1;
-        ending = format!("~{number}");
-    }
-    let renamed = disk::rename(path, &with(&ending));
+    let mut beside = path.as_os_str().to_owned();
+    beside.push("~");
+    let kept = disk::free_name(Path::new(&beside));
+    let ending = kept.as_os_str().to_string_lossy()[path.as_os_str().to_string_lossy().len()..].to_owned();
+    let renamed = disk::rename(path, &kept);
     renamed.map(|()| ending).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use super::ledger::set_manifest_aside;
 use super::manifest::{Entry, Manifest};
 use super::{ExportFault, Shard, divide};
 use crate::disk::{self, Fault, Message, Result, Setting, Task, clear_temporaries, message};
@@ -20,6 +21,8 @@ pub struct Merged {
     pub files: usize,
     /// Their length.
     pub bytes: u64,
+    /// A file of somebody else's that had the manifest's name and was set aside, for the author to know.
+    pub note: Option<String>,
 }
 
 /// Joins the manifests of the parts in `folder`, checks every file, and writes the manifest of the whole. Where the whole
@@ -58,12 +61,13 @@ pub fn merge(folder: &Path) -> Result<Merged> {
         whole = whole.beside(earlier, folder);
     }
     clear_temporaries(folder);
+    let note = set_manifest_aside(folder, Shard::WHOLE)?;
     let path = whole.write(folder)?;
-    Ok(done(path, count, &whole))
+    Ok(Merged { note, ..done(path, count, &whole) })
 }
 
 fn done(path: PathBuf, parts: u32, whole: &Manifest) -> Merged {
-    Merged { path, parts, files: whole.files.len(), bytes: whole.files.iter().map(|f| f.bytes).sum() }
+    Merged { path, parts, files: whole.files.len(), bytes: whole.files.iter().map(|f| f.bytes).sum(), note: None }
 }
 
 /// The manifests of parts in a folder, in the order of their names.

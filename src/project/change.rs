@@ -305,7 +305,7 @@ impl Edit {
                 }
                 add(&mut clip_of(clips, *clip)?.score.keys, key)
             }
-            Self::RemoveKey { clip, key } => remove(&mut clip_of(clips, *clip)?.score.keys, key),
+            Self::RemoveKey { clip, key } => remove(&mut clip_of(clips, *clip)?.score.keys, |k| k.is_same(key)),
             Self::AddRange { clip, at, range } => {
                 let ranges = &mut clip_of(clips, *clip)?.score.ranges;
                 if *at > ranges.len() {
@@ -316,14 +316,16 @@ impl Edit {
             }
             Self::RemoveRange { clip, at, range } => {
                 let ranges = &mut clip_of(clips, *clip)?.score.ranges;
-                if ranges.get(*at) != Some(range) {
+                if !ranges.get(*at).is_some_and(|r| r.is_same(range)) {
                     return Err(stale());
                 }
                 ranges.remove(*at);
                 Ok(())
             }
             Self::AddMarker { clip, marker } => add(&mut clip_of(clips, *clip)?.score.markers, marker),
-            Self::RemoveMarker { clip, marker } => remove(&mut clip_of(clips, *clip)?.score.markers, marker),
+            Self::RemoveMarker { clip, marker } => {
+                remove(&mut clip_of(clips, *clip)?.score.markers, |m| m.is_same(marker))
+            }
             Self::Point { face, shot, point, before, after } => {
                 let face = faces.get_mut(*face).ok_or_else(stale)?;
                 let point = FeaturePoint::named(point).ok_or_else(stale)?;
@@ -375,9 +377,9 @@ fn add<T: PartialEq + Clone>(list: &mut Vec<T>, item: &T) -> Result<()> {
     Ok(())
 }
 
-fn remove<T: PartialEq>(list: &mut Vec<T>, item: &T) -> Result<()> {
+fn remove<T>(list: &mut Vec<T>, is_it: impl FnMut(&T) -> bool) -> Result<()> {
     // The last one: adding puts it there, so that undoing leaves the list as it was.
-    let place = list.iter().rposition(|i| i == item).ok_or_else(stale)?;
+    let place = list.iter().rposition(is_it).ok_or_else(stale)?;
     list.remove(place);
     Ok(())
 }

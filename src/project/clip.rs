@@ -119,8 +119,12 @@ impl Clip {
             let path = inside(root, &format!("clips/{}/{name}", entry.name))?;
             pending.at(&path)
         };
-        let text = |name: &str| -> Result<Option<(PathBuf, String)>> {
-            file(name)?.map(|path| read_text(&path).map(|text| (path, text))).transpose()
+        // The sum first: a file that changes while it is read is not what it says.
+        let text = |name: &str| -> Result<Option<(PathBuf, Option<Sum>, String)>> {
+            file(name)?
+                .map(|path| (sum_of(&path), path))
+                .map(|(sum, path)| read_text(&path).map(|text| (path, sum, text)))
+                .transpose()
         };
         let mut clip = Self {
             entry: entry.clone(),
@@ -160,18 +164,18 @@ impl Clip {
             clip.sound = Some(Arc::new(sound));
         }
         let mut ratios = None;
-        if let Some((path, text)) = text("ratios.csv")? {
+        if let Some((path, sum, text)) = text("ratios.csv")? {
             clip.record = Some(Record::parse(&text).map_err(|f| f.at(&path))?);
-            clip.seen.ratios = sum_of(&path);
+            clip.seen.ratios = sum;
             ratios = Some(text);
         }
-        if let Some((path, text)) = text("tracks.csv")? {
+        if let Some((path, sum, text)) = text("tracks.csv")? {
             clip.tracks = Some(Tracks::parse(&text).map_err(|f| f.at(&path))?);
-            clip.seen.tracks = sum_of(&path);
+            clip.seen.tracks = sum;
         }
-        if let Some((path, text)) = text("score.toml")? {
+        if let Some((path, sum, text)) = text("score.toml")? {
             clip.score = Score::parse(&text).map_err(|f| f.at(&path))?;
-            clip.seen.score = sum_of(&path);
+            clip.seen.score = sum;
         }
         if let Some(ratios) = &ratios {
             clip.disown(ratios);
@@ -212,10 +216,15 @@ impl Clip {
 
     /// Shares the sound among the syllables; tiers of something else stay.
     pub(super) fn guess(&mut self) {
+        self.timing.tiers.retain(|t| !OWN_TIERS.contains(&t.name.as_str()));
+        self.guess_beside();
+    }
+
+    /// The same beside tiers that somebody else made, whatever they are called.
+    pub(super) fn guess_beside(&mut self) {
         let labels: Vec<String> = self.plain.iter().map(|s| s.text.clone()).collect();
         let duration = if self.sound_seconds > 0.0 { self.sound_seconds } else { 0.3 * labels.len() as f64 };
         let sounding = self.sound.as_deref().map(Sound::sounding).unwrap_or_default();
-        self.timing.tiers.retain(|t| !OWN_TIERS.contains(&t.name.as_str()));
         self.timing.duration = self.timing.duration.max(duration);
         self.timing.guessed = !labels.is_empty();
         if !labels.is_empty() {

@@ -269,7 +269,7 @@ fn calibrate_shots(lesson: &Lesson, new: &NewLesson) -> Result<Option<Quality>> 
         return Ok(None);
     };
     let kept = Kept::make(&face.folder).map_err(|f| of_inputs(f, new))?;
-    in_draft(&lesson.root, |commit| kept.stage(&face.folder, commit))?;
+    in_draft(&lesson.root, |commit| kept.stage(&face.folder, |_| None, commit))?;
     Ok(Some(kept.made.quality))
 }
 

@@ -57,7 +57,11 @@ impl LessonFace {
         }
         let path = inside(root, &format!("faces/{}/{FACE_FILE}", entry.name))?;
         let (face, seen) = match pending.at(&path)? {
-            Some(file) => (Some(Face::parse(&read_text(&file)?).map_err(|f| f.at(&path))?), sum_of(&file)),
+            Some(file) => {
+                // The sum first: a file that changes while it is read is not what it says.
+                let sum = sum_of(&file);
+                (Some(Face::parse(&read_text(&file)?).map_err(|f| f.at(&path))?), sum)
+            }
             None => (None, None),
         };
         let path = inside(root, &format!("faces/{}/{CALIBRATION}", entry.name))?;

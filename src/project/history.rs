@@ -25,6 +25,19 @@ impl History {
         &self.undone
     }
 
+    /// The changes that lead from the files to the lesson as it is, oldest first; where that state cannot be reached any
+    /// more, all changes.
+    pub(super) fn unsaved(&self) -> Vec<Change> {
+        match self.saved {
+            Some(saved) if saved <= self.done.len() => self.done[saved..].to_vec(),
+            Some(saved) => {
+                let back = self.undone.iter().take(saved - self.done.len());
+                back.map(Change::inverse).collect()
+            }
+            None => self.done.clone(),
+        }
+    }
+
     pub(super) fn push(&mut self, change: Change) {
         self.start();
         if self.saved.is_some_and(|s| s > self.done.len()) {

@@ -13,22 +13,41 @@ pub(super) const JOURNAL_BYTES: u64 = 2 << 30;
 /// The journal's name in the program's own folder.
 pub(super) const JOURNAL: &str = "journal";
 
+/// What a journal holds.
+#[derive(Debug, Default)]
+pub(super) struct Left {
+    /// The changes, oldest first.
+    pub(super) changes: Vec<Change>,
+    /// The whole lines that are none: damaged, or of another version of the program.
+    pub(super) unreadable: usize,
+}
+
 /// A journal that is appended to.
 #[derive(Debug)]
 pub(super) struct Journal {
     /// Opened with the first note, and again after a save has put an empty one in its place.
     file: Option<File>,
     path: PathBuf,
+    /// Whether half a line may be at its end.
+    torn: bool,
 }
 
 impl Journal {
     /// The changes that an earlier session left unsaved. A last line that was cut off is dropped.
-    pub(super) fn left_in(path: &Path) -> Result<Vec<Change>> {
+    pub(super) fn left_in(path: &Path) -> Result<Left> {
         if !path.is_file() {
-            return Ok(Vec::new());
+            return Ok(Left::default());
         }
         let bytes = read_bytes(path, JOURNAL_BYTES)?;
-        Ok(bytes.split(|b| *b == b'\n').map_while(|line| serde_json::from_slice(line).ok()).collect())
+        let mut left = Left::default();
+        for line in bytes.split_inclusive(|b| *b == b'\n') {
+            match serde_json::from_slice(line) {
+                Ok(change) => left.changes.push(change),
+                Err(_) if line.ends_with(b"\n") && !line.trim_ascii().is_empty() => left.unreadable += 1,
+                Err(_) => {}
+            }
+        }
+        Ok(left)
     }
 
     /// The journal at `path`, which is added to `commit` with the changes that hold, so that what is noted next follows
@@ -36,7 +55,7 @@ impl Journal {
     pub(super) fn start(path: PathBuf, holding: &[Change], commit: &mut Commit) -> Result<Self> {
         let text: String = holding.iter().map(line_of).collect();
         commit.put_over(&path, text)?;
-        Ok(Self { file: None, path })
+        Ok(Self { file: None, path, torn: false })
     }
 
     /// Its file.
@@ -46,7 +65,15 @@ impl Journal {
 
     /// Whether its file is open: one that is not is opened by its path, where another project may lie by then.
     pub(super) fn is_open(&self) -> bool {
-        self.file.is_some()
+        self.file.as_ref().is_some_and(|file| !is_removed(file))
+    }
+
+    /// Goes on in a new file where its own was removed, with the changes that are not saved.
+    pub(super) fn revive(&mut self, unsaved: &[Change]) -> Result<()> {
+        if self.file.take_if(|file| is_removed(file)).is_some() {
+            unsaved.iter().try_for_each(|change| self.note(change))?;
+        }
+        Ok(())
     }
 
     /// Notes a change that was made.
@@ -57,11 +84,10 @@ impl Journal {
         }
         let Some(file) = &mut self.file else { return Ok(()) };
         let length = file.metadata().map_err(cannot)?.len();
-        let noted = file.write_all(line_of(change).as_bytes()).and_then(|()| file.sync_data());
-        if noted.is_err() {
-            // Half a line would hide those that follow it.
-            let _ = file.set_len(length);
-        }
+        let line = if self.torn { "\n".to_owned() + &line_of(change) } else { line_of(change) };
+        let noted = file.write_all(line.as_bytes()).and_then(|()| file.sync_data());
+        // Half a line would spoil the one that follows it.
+        self.torn = noted.is_err() && file.set_len(length).is_err() || noted.is_err() && self.torn;
         noted.map_err(cannot)
     }
 
@@ -86,6 +112,18 @@ impl Journal {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether nobody can find a file any more: what is written into it is lost with the program.
+#[cfg(unix)]
+fn is_removed(file: &File) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    file.metadata().is_ok_and(|about| about.nlink() == 0)
+}
+
+#[cfg(not(unix))]
+fn is_removed(_file: &File) -> bool {
+    false
 }
 
 fn line_of(change: &Change) -> String {

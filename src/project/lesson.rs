@@ -6,7 +6,7 @@ use super::figures;
 use super::history::History;
 use super::journal::Journal;
 use super::manifest::{ClipEntry, MANIFEST, Manifest};
-use super::open::{Unsaved, refusal};
+use super::open::{LOST, Unsaved, refusal};
 use super::{Change, Clip, LessonFace, ProjectFault};
 use crate::disk::{self, Fault, HeldFolder, Lock, Message, Result, Sums, confine, is_temporary, suggestion};
 use crate::drawing::Drawing;
@@ -50,7 +50,18 @@ impl Lesson {
     /// The notes on a save that was cut off, and on changes of an earlier session that are in no file.
     #[must_use]
     pub fn state_notes(&self) -> Vec<Message> {
-        self.notes.iter().cloned().chain(self.unsaved.note()).collect()
+        let lost = (self.lost > 0).then(|| {
+            let many = if self.lost == 1 {
+                "1 unsaved change of an earlier session fits"
+            } else {
+                "unsaved changes of an earlier session fit"
+            };
+            let many = if self.lost == 1 { many.to_owned() } else { format!("{} {many}", self.lost) };
+            Message::from(format!(
+                "{many} the files no more and was left out: .lianpu/{LOST} has what was in the journal"
+            ))
+        });
+        self.notes.iter().cloned().chain(lost).chain(self.unsaved.note()).collect()
     }
 
     /// Makes a change, remembers it for undo, and notes it in the journal.
@@ -93,6 +104,8 @@ impl Lesson {
         if self.journal.as_ref().is_some_and(|journal| !journal.is_open()) {
             self.hold()?;
         }
+        let unsaved = self.history.unsaved();
+        self.journal.as_mut().map_or(Ok(()), |journal| journal.revive(&unsaved))?;
         self.apply(change)?;
         let noted = self.journal.as_mut().map_or(Ok(()), |journal| journal.note(change));
         if noted.is_err() {

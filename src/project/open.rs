@@ -5,16 +5,16 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use super::history::History;
-use super::journal::{JOURNAL, JOURNAL_BYTES, Journal};
+use super::journal::{JOURNAL, JOURNAL_BYTES, Journal, Left};
 use super::settled::{LOCK, OWN_FOLDER, end_and_sweep, read_settled};
 use super::{Change, Clip, Lesson, LessonFace, MANIFEST, Manifest, ProjectFault, counted};
 use crate::disk::{
-    Calls, Commit, Fault, HeldFolder, Lock, Message, Pending, Result, Sums, SystemCalls, Task, message, read_bytes,
-    read_text,
+    Calls, Commit, Fault, HeldFolder, Lock, Message, Pending, Result, Sums, SystemCalls, Task, free_name, message,
+    read_bytes, read_text,
 };
 
 /// Where changes are kept that do not fit the files any more.
-const LOST: &str = "journal.lost";
+pub(super) const LOST: &str = "journal.lost";
 
 impl Lesson {
     /// Reads a lesson to look at and export. Nothing on disk changes, unless a save was cut off: that is finished first.
@@ -88,7 +88,7 @@ impl Lesson {
     ) -> Result<Self> {
         let own = root.join(OWN_FOLDER);
         let path = own.join(JOURNAL);
-        let left = Journal::left_in(&path)?;
+        let Left { changes: left, unreadable } = Journal::left_in(&path)?;
         let mut lesson = Self::of_files(root, manifest, &Pending::default(), &left)?;
         (lesson.read_only, lesson.notes) = (None, notes);
         (lesson.lock, lesson.held) = (Some(lock), Some(HeldFolder::new(root)));
@@ -104,13 +104,13 @@ impl Lesson {
                 Err(_) => break,
             }
         }
-        lesson.lost = left.len() - lesson.recovered - made_before;
+        lesson.lost = left.len() - lesson.recovered - made_before + unreadable;
         let (like, none) = (root.join(MANIFEST), Sums::new());
         if lesson.lost > 0 {
             // Nobody can tell what they are, so nothing is thrown away.
             let all = read_bytes(&path, JOURNAL_BYTES)?;
             let mut copy = Commit::new(root, &own, &like, &none);
-            copy.put_over(&own.join(LOST), all)?;
+            copy.put_over(&free_name(&own.join(LOST)), all)?;
             copy.run(calls)?;
         }
         let mut commit = Commit::new(root, &own, &like, &none);
@@ -185,7 +185,8 @@ impl Unsaved {
     /// Those of the lesson in `root`.
     pub(super) fn of(root: &Path) -> Result<Self> {
         let own = root.join(OWN_FOLDER);
-        let changes = Journal::left_in(&own.join(JOURNAL))?.len();
+        let left = Journal::left_in(&own.join(JOURNAL))?;
+        let changes = left.changes.len() + left.unreadable;
         Ok(Self { changes, is_open: changes > 0 && Lock::is_held(&own.join(LOCK)) })
     }
 

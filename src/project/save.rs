@@ -7,7 +7,9 @@ use super::open::{elsewhere, refusal};
 use super::settled::{LOCK, OWN_FOLDER};
 use super::{Change, Clip, Edit, Lesson, LessonFace, MANIFEST, ProjectFault};
 use crate::calibration::{Kept, Marks};
-use crate::disk::{Calls, Commit, Committed, Fault, Lock, Result, Sum, Sums, SystemCalls, end_commit};
+use crate::disk::{
+    CHANGED_MEANWHILE, Calls, Commit, Committed, Fault, Lock, Result, Sum, Sums, SystemCalls, end_commit,
+};
 use crate::face::Face;
 use crate::pose::Emotion;
 use crate::timeline::Score;
@@ -58,7 +60,10 @@ impl Lesson {
         self.hold()?;
         let (root, own, like) = (self.root.clone(), self.root.join(OWN_FOLDER), self.root.join(MANIFEST));
         // A save that could not be finished comes first.
-        end_commit(&root, &own, calls)?;
+        let ended = end_commit(&root, &own, calls)?;
+        if let Some(note) = ended.into_iter().find(|note| note.contains(CHANGED_MEANWHILE)) {
+            return Err(Fault::of(ProjectFault::Changed, note).at(&root).help("look at both, and save again"));
+        }
         let before = self.sent.clone();
         let mut commit = Commit::new(&root, &own, &like, &before);
         stage(self, &mut commit)?;
@@ -187,7 +192,10 @@ impl Lesson {
             if lesson.is_unsaved() {
                 lesson.stage(commit)?;
             }
-            lesson.faces.get(number).map_or(Ok(()), |face| kept.stage(&face.folder, commit))
+            lesson
+                .faces
+                .get(number)
+                .map_or(Ok(()), |face| kept.stage(&face.folder, |shot| face.shots[shot.index()].seen, commit))
         })?;
         if let Some(face) = self.faces.get_mut(number) {
             face.calibration = Some(Box::new(kept.file()));

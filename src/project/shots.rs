@@ -90,9 +90,9 @@ pub(super) fn shots_of(root: &Path, name: &str, pending: &Pending) -> Result<[Fa
         }
         let path = inside(root, &format!("faces/{name}/{emotion}.toml"))?;
         if let Some(file) = pending.at(&path)? {
+            shot.seen = sum_of(&file);
             shot.marks = Some(Marks::parse(&read_text(&file)?).map_err(|f| f.at(&path))?);
             shot.written.clone_from(&shot.marks);
-            shot.seen = sum_of(&file);
         }
     }
     Ok(shots)

@@ -27,7 +27,7 @@ impl Clip {
             }
             // Shapes alone, as other programs of lip movement write them.
             self.timing = timing;
-            self.guess();
+            self.guess_beside();
             return Ok(());
         };
         if self.plain.is_empty() && self.script.trim().is_empty() {

@@ -72,6 +72,34 @@ impl Key {
     pub fn new(time: f64, value: KeyValue) -> Self {
         Self { time, value, ease: Ease::Smooth, ends: false, replaces: None }
     }
+
+    /// Whether both are one key, of which a file keeps millionths and memory more.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        let value = match (&self.value, &other.value) {
+            (KeyValue::Emotion(a), KeyValue::Emotion(b)) => are_near(&a.0, &b.0),
+            (KeyValue::Blink(a), KeyValue::Blink(b)) => is_near(*a, *b),
+            (KeyValue::Gaze(a), KeyValue::Gaze(b)) => is_near(a.x, b.x) && is_near(a.y, b.y),
+            (KeyValue::Head(a), KeyValue::Head(b)) => are_near(&[a.x, a.y, a.roll], &[b.x, b.y, b.roll]),
+            (a, b) => a == b,
+        };
+        let replaces = match (self.replaces, other.replaces) {
+            (Some(a), Some(b)) => is_near(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        value && replaces && is_near(self.time, other.time) && (self.ease, self.ends) == (other.ease, other.ends)
+    }
+}
+
+/// Numbers nearer than this are one in a file, neutral's share among them, which takes up the roundings of six others.
+const NEAR: f64 = 1e-5;
+
+fn is_near(a: f64, b: f64) -> bool {
+    (a - b).abs() < NEAR
+}
+
+fn are_near(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(*a, *b))
 }
 
 /// An edit of the ratio record between two times. Each emotion's ratio becomes ratio × scale + offset; neutral takes
@@ -94,6 +122,14 @@ pub struct Range {
 const FADE: f64 = 0.08;
 
 impl Range {
+    /// Whether both are one edit, of which a file keeps millionths and memory more.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        let numbers = |r: &Self| [r.from, r.to, r.smooth];
+        let lists = |r: &Self| -> Vec<f64> { r.scale[1..].iter().chain(&r.offset[1..]).copied().collect() };
+        are_near(&numbers(self), &numbers(other)) && are_near(&lists(self), &lists(other))
+    }
+
     /// An edit that changes nothing yet.
     #[must_use]
     pub fn new(from: f64, to: f64) -> Self {
@@ -119,6 +155,14 @@ pub struct Marker {
     pub time: f64,
     /// What it says.
     pub text: String,
+}
+
+impl Marker {
+    /// Whether both are one marker, of which a file keeps millionths and memory more.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        is_near(self.time, other.time) && self.text == other.text
+    }
 }
 
 /// Everything an author set on a clip.

@@ -1,5 +1,5 @@
 //! Lessons in a real browser: the page is played as its reader plays it, and animated SVG shows what the frames show.
-//! Where there is no Chromium a line says so. Lottie is shown by lottie-web where `LIANPU_LOTTIE_WEB` names its
+//! Where there is no Chromium they are ignored. Lottie is shown by lottie-web where `LIANPU_LOTTIE_WEB` names its
 //! `lottie.min.js` (npm: `lottie-web`, in `build/player`).
 
 #![cfg(unix)]
@@ -74,6 +74,7 @@ fn number(tab: &mut Tab<'_>, expression: &str) -> f64 {
 
 /// One after the other: pages that are played at once take the time from each other.
 #[test]
+#[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
 fn lessons_play_in_a_real_browser() {
     let Some(mut browser) = Chromium::start() else { return };
     let (folder, lesson) = lesson();

@@ -12,7 +12,6 @@ use lianpu::geometry::{Point, Vec2};
 use lianpu::photo::Grey;
 use proptest::prelude::*;
 
-
 use crate::support::chance::Chance;
 
 /// A shape moved by a random similarity, so that its points move by `by` pixels, root mean square.
@@ -70,6 +69,7 @@ fn mean_at(model: &Model, truth: &[Point]) -> Vec<Point> {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn seven_shots_of_a_person_find_the_others_from_near_and_from_far_and_what_fails_is_known() {
     let Some(folder) = test_data::find("faces/imm_frontal") else { return };
     let mut chance = Chance(7);
@@ -112,6 +112,7 @@ fn seven_shots_of_a_person_find_the_others_from_near_and_from_far_and_what_fails
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_talking_man_is_followed_without_loss_and_steadily() {
     let Some(folder) = test_data::find("faces/franck") else { return };
     let shots: Vec<_> = ["0075", "0260", "0565", "1080", "1090", "1095", "1195"]
@@ -185,6 +186,7 @@ fn depth_kept(raw: &[f64], held: &[f64], deep: f64) -> (f64, usize) {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn blinks_and_closures_of_the_lips_outlast_the_holding() {
     let Some(folder) = test_data::find("faces/franck") else { return };
     let shots: Vec<_> = ["0075", "0260", "0565", "1080", "1090", "1095", "1195"]
@@ -227,6 +229,7 @@ fn blinks_and_closures_of_the_lips_outlast_the_holding() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_start_out_of_its_mind_gives_no_confidence_and_no_nan() {
     let Some(folder) = test_data::find("faces/imm_frontal") else { return };
     let (model, others) = frontal(&folder, "05");
@@ -256,6 +259,7 @@ fn a_start_out_of_its_mind_gives_no_confidence_and_no_nan() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn strangers_are_found_by_our_own_detection() {
     let Some(folder) = test_data::find("faces/imm_frontal") else { return };
     // Three people and three pictures each to learn from, one person to find.
@@ -275,7 +279,7 @@ fn strangers_are_found_by_our_own_detection() {
     assert!(after < 6.0 && fit.confidence >= 0.5, "{before} {after} {}", fit.confidence);
 }
 
-/// The full measure, as long as it takes: `cargo test --release --test aam -- --ignored --nocapture`.
+/// The full measure, as long as it takes: `cargo test --release --test it aam:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
 fn strangers_of_the_imm_set() {
@@ -308,6 +312,7 @@ fn strangers_of_the_imm_set() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn real_annotations_survive_a_round_trip_in_every_format() {
     let Some(faces) = test_data::find("faces") else { return };
     let asf = Annotation::read(&faces.join("imm240/01-1m.asf")).unwrap().remove(0);
@@ -415,6 +420,7 @@ proptest! {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_program_trains_fits_and_draws_a_model() {
     let Some(folder) = test_data::find("faces/imm_frontal") else { return };
     let room = tempfile::tempdir().unwrap();

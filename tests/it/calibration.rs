@@ -14,7 +14,6 @@ use lianpu::geometry::Point;
 use lianpu::photo::Grey;
 use lianpu::pose::Emotion;
 
-
 fn load(folder: &Path, name: &str, ending: &str) -> (Grey, Vec<Point>) {
     let grey = Grey::read(&folder.join(format!("{name}.jpg"))).unwrap();
     let list = Annotation::read(&folder.join(format!("{name}.{ending}"))).unwrap();
@@ -213,6 +212,7 @@ fn returns_its_own(made: &Calibrated) {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn each_marked_shot_returns_its_own_emotion_and_the_file_keeps_all() {
     let Some(made) = franck(&["0075", "0260", "1080", "1090", "1095", "1195"], true) else { return };
     returns_its_own(&made);
@@ -249,6 +249,7 @@ fn each_marked_shot_returns_its_own_emotion_and_the_file_keeps_all() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn shots_that_nobody_marked_are_found_and_a_missing_one_is_modelled_and_said() {
     let Some(folder) = test_data::find("faces/imm_frontal") else { return };
     let (neutral, _) = load(&folder, "05_01", "asf");
@@ -269,6 +270,7 @@ fn shots_that_nobody_marked_are_found_and_a_missing_one_is_modelled_and_said() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_neutral_face_alone_still_gives_a_calibration_and_says_what_that_costs() {
     let Some(made) = franck(&[], true) else { return };
     returns_its_own(&made);
@@ -277,6 +279,7 @@ fn a_neutral_face_alone_still_gives_a_calibration_and_says_what_that_costs() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_folder_is_read_and_what_was_found_is_written_and_read_back() {
     let Some(from) = test_data::find("faces/franck/calibration") else { return };
     let room = tempfile::tempdir().unwrap();
@@ -303,6 +306,7 @@ fn a_folder_is_read_and_what_was_found_is_written_and_read_back() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_persons_expressions_are_as_large_as_everybodys_and_turn_nothing_inside_out() {
     use lianpu::face::rig::{Expressions, Neutral, Proportions};
     use lianpu::pose::{Pose, Ratios};

@@ -3,7 +3,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use std::fmt::Write as _;
 
@@ -77,6 +76,7 @@ fn all_411_syllables_have_the_shapes_of_the_table_in_every_spelling() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn marked_polyphones_in_real_sentences_have_the_right_mouth() {
     let Some(folder) = test_data::find("mandarin/polyphones") else { return };
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();

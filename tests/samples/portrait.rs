@@ -5,12 +5,12 @@
 //! come out on every run.
 //!
 //! ```sh
-//! cargo run --release --example portrait -- neutral projects/nihao/faces/teacher/neutral.png
-//! cargo run --release --example portrait -- turned tests/pictures/refused/turned.png --size 320
-//! cargo run --release --example portrait -- away tests/pictures/refused/away.png --size 320
-//! cargo run --release --example portrait -- profile tests/pictures/refused/profile.png --size 320
-//! cargo run --release --example portrait -- two tests/pictures/refused/two.png --size 320
-//! cargo run --release --example portrait -- man tests/pictures/man.png --size 480
+//! cargo run --release --features tools --example portrait -- neutral projects/nihao/faces/teacher/neutral.png
+//! cargo run --release --features tools --example portrait -- turned tests/pictures/refused/turned.png --size 320
+//! cargo run --release --features tools --example portrait -- away tests/pictures/refused/away.png --size 320
+//! cargo run --release --features tools --example portrait -- profile tests/pictures/refused/profile.png --size 320
+//! cargo run --release --features tools --example portrait -- two tests/pictures/refused/two.png --size 320
+//! cargo run --release --features tools --example portrait -- man tests/pictures/man.png --size 480
 //! ```
 //!
 //! Further pictures, for trying things out: `tilted`, `sidelight`, `small`, `open`.

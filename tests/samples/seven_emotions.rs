@@ -1,7 +1,7 @@
 //! Makes the ratio record of `projects/seven-emotions`: a walk through the seven emotions and their mixtures.
 //!
 //! ```sh
-//! cargo run --example seven-emotions > projects/seven-emotions/clips/walk/ratios.csv
+//! cargo run --features tools --example seven-emotions > projects/seven-emotions/clips/walk/ratios.csv
 //! ```
 
 #![allow(clippy::print_stdout, reason = "printing is what it does")]

@@ -3,7 +3,7 @@
 //!
 //! ```sh
 //! python3 tests/samples/xiyang.py projects/xiyang/clips/xiyang tests/truth
-//! cargo run --release --example xiyang -- projects/xiyang tests/truth
+//! cargo run --release --features tools --example xiyang -- projects/xiyang tests/truth
 //! ```
 //!
 //! The first command makes the sound and the times by which his mouth moves. `--only happy,20,40` renders that shot

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use std::path::{Path, PathBuf};
 
@@ -272,6 +271,7 @@ const BALD: [&str; 1] = ["021"];
 const SHAVED: [&str; 5] = ["037", "042", "061", "105", "172"];
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn all_72_people_are_measured_as_their_own_points_and_a_look_say() {
     let people = people();
     if people.is_empty() {
@@ -314,6 +314,7 @@ fn all_72_people_are_measured_as_their_own_points_and_a_look_say() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn points_as_a_machine_finds_them_change_little() {
     let people = people();
     if people.is_empty() {
@@ -437,6 +438,7 @@ fn with_glasses(person: &Person, lens: Vec2, thick: f64, colour: [u8; 3], cover:
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn drawn_rims_are_found_on_every_skin() {
     let people = people();
     let rims: [(Vec2, f64, [u8; 3], f64); 3] = [
@@ -460,6 +462,7 @@ fn drawn_rims_are_found_on_every_skin() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_photo_three_times_as_large_gives_the_same_face() {
     let Some(folder) = test_data::find("faces/london") else { return };
     let small = person(&folder, "041".to_owned());

@@ -1,11 +1,10 @@
 //! The face in a photo and its points: found on photos that nothing was learned from, refused where there is none,
 //! bent to what a hand has set.
 //!
-//! Accuracy by people whom the numbers have not seen is measured by `cargo run --release --example learn-faces -- DATA
+//! Accuracy by people whom the numbers have not seen is measured by `cargo run --release --features tools --example learn-faces -- DATA
 //! --cross-validate`; its table is in `src/face/find/NOTES.md`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
-
 
 use crate::support::test_data;
 use std::path::{Path, PathBuf};
@@ -69,6 +68,7 @@ fn true_eyes(photo: &Path, size: (usize, usize)) -> (Point, Point) {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_eyes_of_people_from_whom_nothing_was_learned_are_found() {
     let Some(names) = photos("imm240", |n| n.contains("-1")) else { return };
     let mut worst: f64 = 0.0;
@@ -86,6 +86,7 @@ fn the_eyes_of_people_from_whom_nothing_was_learned_are_found() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn no_face_from_the_front_is_refused() {
     for (folder, keep) in [("imm_frontal", ""), ("london", "neutral"), ("london", "smiling")] {
         let Some(names) = photos(folder, |n| n.contains(keep)) else { return };
@@ -99,6 +100,7 @@ fn no_face_from_the_front_is_refused() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_face_moves_with_its_photo() {
     let Some(photo) = one() else { return };
     let found = find(&photo, &[]).unwrap();
@@ -194,6 +196,7 @@ fn a_drawn_figure_is_no_photo_of_a_face() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn faces_upside_down_on_their_side_or_in_pieces_are_refused() {
     let Some(names) = photos("imm240", |n| n.contains("-1")) else { return };
     for name in names.iter().step_by(4) {
@@ -214,6 +217,7 @@ fn faces_upside_down_on_their_side_or_in_pieces_are_refused() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn two_faces_are_refused_and_a_small_one() {
     let Some(names) = photos("imm240", |n| n.contains("-1")) else { return };
     let (a, b) = (Photo::read(&names[4]).unwrap(), Photo::read(&names[11]).unwrap());
@@ -234,6 +238,7 @@ fn two_faces_are_refused_and_a_small_one() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn what_a_hand_has_set_stays_and_pulls_its_neighbours() {
     let Some(photo) = one() else { return };
     let found = find(&photo, &[]).unwrap();
@@ -259,6 +264,7 @@ fn what_a_hand_has_set_stays_and_pulls_its_neighbours() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn four_places_pointed_out_are_enough() {
     let Some(photo) = one() else { return };
     let found = find(&photo, &[]).unwrap();
@@ -285,6 +291,7 @@ fn four_places_pointed_out_are_enough() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn confidence_tells_an_eye_from_an_ear() {
     let Some(photo) = one() else { return };
     let found = find(&photo, &[]).unwrap();

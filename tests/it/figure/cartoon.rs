@@ -1,9 +1,8 @@
 //! The cartoon: what holds for any face, style and pose, and how it looks.
 //!
-//! The faces of `tests/faces` are nobody's. `LIANPU_GOLDEN=write cargo test --test cartoon` makes the pictures again.
+//! The faces of `tests/faces` are nobody's. `LIANPU_GOLDEN=write cargo test --test it cartoon` makes the pictures again.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
-
 
 use std::path::PathBuf;
 

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use lianpu::drawing::{Colour, Drawing, Item, Layer};
 use lianpu::figure::LineFigure;
@@ -11,6 +10,7 @@ use lianpu::pose::{Emotion, MouthPose, MouthPreset, MouthShape, Pose, Ratios};
 use lianpu::render::Painter;
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn blending_at_the_seven_corners_gives_table_1_back_exactly() {
     let Some(table) = test_data::find("line-figure/table1.csv") else { return };
     let table = std::fs::read_to_string(table).unwrap();
@@ -28,6 +28,7 @@ fn blending_at_the_seven_corners_gives_table_1_back_exactly() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_lines_are_those_of_table_2() {
     let Some(table) = test_data::find("line-figure/table2.csv") else { return };
     let table = std::fs::read_to_string(table).unwrap();

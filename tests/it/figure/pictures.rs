@@ -1,8 +1,7 @@
-//! Golden pictures. `LIANPU_GOLDEN=write cargo test --test pictures` makes them again; on failure the difference is
+//! Golden pictures. `LIANPU_GOLDEN=write cargo test --test it pictures` makes them again; on failure the difference is
 //! written as three panels (expected, found, where) and its path is printed.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
-
 
 use crate::support::golden_picture::{hold, same_as_resvg};
 use lianpu::drawing::{Anchor, Colour, Drawing, Item, Layer};

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
-
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;

@@ -259,14 +259,6 @@ fn what_is_stopped_leaves_what_was_there() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-fn has_ffmpeg() -> bool {
-    let here = Command::new("ffmpeg").arg("-version").output().is_ok_and(|o| o.status.success());
-    if !here {
-        println!("not run: ffmpeg is not here");
-    }
-    here
-}
-
 fn decoded(path: &Path, arguments: &[&str]) -> Vec<u8> {
     let out = Command::new("ffmpeg").args(["-v", "error", "-i"]).arg(path).args(arguments).arg("-").output().unwrap();
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
@@ -281,10 +273,8 @@ fn clap_of(samples: &[u8], from: f64) -> f64 {
 }
 
 #[test]
+#[cfg_attr(not(has_ffmpeg), ignore = "needs ffmpeg")]
 fn sound_and_picture_of_a_video_agree_at_its_start_and_its_end() {
-    if !has_ffmpeg() {
-        return;
-    }
     let folder = tempfile::tempdir().unwrap();
     // Flashes at 1 s and at 19 s, each with a clap.
     let mut samples = vec![0.0_f32; 22_050 * 20];
@@ -347,10 +337,8 @@ fn lay_on_black(p: &mut [u8]) {
 }
 
 #[test]
+#[cfg_attr(not(has_ffmpeg), ignore = "needs ffmpeg")]
 fn a_video_has_our_colours_and_a_webm_our_alpha() {
-    if !has_ffmpeg() {
-        return;
-    }
     let folder = tempfile::tempdir().unwrap();
     let shown: Vec<u32> = (0..30).collect();
     for (container, ending, clear) in [
@@ -389,10 +377,8 @@ fn a_video_has_our_colours_and_a_webm_our_alpha() {
 }
 
 #[test]
+#[cfg_attr(not(has_ffmpeg), ignore = "needs ffmpeg")]
 fn a_video_that_cannot_be_written_says_what_ffmpeg_says() {
-    if !has_ffmpeg() {
-        return;
-    }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("wide.mp4");
     // Wider than H.264 can be.
@@ -419,7 +405,7 @@ fn a_moving_picture_is_on_the_disk_before_it_takes_its_place() {
     }
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/nihao");
     let out = folder.path().join("out");
-    let forms = if has_ffmpeg() { "gif,apng,mp4,webm,png" } else { "gif,apng,png" };
+    let forms = if cfg!(has_ffmpeg) { "gif,apng,mp4,webm,png" } else { "gif,apng,png" };
     let mut program = watcher();
     program.arg(env!("CARGO_BIN_EXE_lianpu")).arg("export").arg(project).arg("--out").arg(&out);
     program.args(["--to", forms, "--frames", "0-2", "--size", "64x36"]);

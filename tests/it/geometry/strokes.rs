@@ -2,9 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
-use crate::support::inked;
 use crate::support::discs::{Rows, reach};
+use crate::support::inked;
 use lianpu::drawing::{Colour, Drawing, Item, Layer};
 use lianpu::figure::{LineFigure, Widths};
 use lianpu::geometry::{BezPath, Knot, Rect, Ribbon, outline, outline_in_pieces};

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use std::path::{Path, PathBuf};
 
@@ -67,6 +66,7 @@ fn within(name: &str, errors: &[f64]) -> [f64; 2] {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_eye_pair_of_the_imm_photos_is_found_as_often_as_the_thesis_finds_it() {
     let mut photos = files("faces/imm240", "-1m.jpg");
     photos.extend(files("faces/imm240", "-1f.jpg"));
@@ -108,6 +108,7 @@ fn point_errors(stages: &Stages, truth: &[Point], table: &[(FeaturePoint, Vec<us
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn eyes_and_points_of_the_london_photos_are_found_as_well_as_the_thesis_finds_them() {
     let photos = files("faces/london", "_neutral.jpg");
     let table = london_table();
@@ -143,6 +144,7 @@ fn eyes_and_points_of_the_london_photos_are_found_as_well_as_the_thesis_finds_th
 
 /// A photo's stages can all be drawn, each with its caption, and so can its points, with and without names.
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn every_stage_of_a_real_photo_is_drawn() {
     let Some(path) = test_data::find("faces/london/001_neutral.jpg") else { return };
     let photo = Photo::read(&path).unwrap();
@@ -177,6 +179,7 @@ fn quality(photo: &Photo, eyes: [Point; 2]) -> Quality {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn light_from_the_side_is_told_from_frontal_light() {
     let sides = |end: &str| -> Vec<f64> {
         let one = |path: &PathBuf| {
@@ -193,6 +196,7 @@ fn light_from_the_side_is_told_from_frontal_light() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_portrait_out_of_focus_measures_more_blur_than_any_in_focus() {
     let photos = files("faces/london", "_neutral.jpg");
     let one = |path: &PathBuf| {

@@ -15,7 +15,6 @@ use lianpu::pose::{Emotion, Ratios};
 use lianpu::ratios::Record;
 use lianpu::track::by_aam;
 
-
 use crate::support::chance::Chance;
 
 /// A frame of the truth.

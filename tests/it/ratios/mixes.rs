@@ -11,7 +11,6 @@ use lianpu::ratios::{
     Moment, MouthMoves, Record, Row, SMOOTH_WIDTH, Steady, TrackRow, Tracks, smooth_record, smooth_tracks,
 };
 
-
 use crate::support::chance::Chance;
 
 /// The average face's own 41 points in a pose, pupil distance 1.

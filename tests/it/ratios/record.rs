@@ -14,7 +14,6 @@ use lianpu::pose::{Gaze, Head, Lids, Ratios};
 use lianpu::ratios::{LprReader, LprWriter, Moment, MouthMoves, Record, Row, TrackRow, Tracks, Whole, to_lpr};
 use proptest::prelude::*;
 
-
 fn load(folder: &Path, name: &str) -> (Grey, Vec<Point>) {
     let grey = Grey::read(&folder.join(format!("{name}.jpg"))).unwrap();
     let list = Annotation::read(&folder.join(format!("{name}.pts"))).unwrap();
@@ -62,6 +61,7 @@ fn errors(a: &Record, b: &Record) -> (f64, f64) {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_record_of_a_talking_man_is_small_and_true() {
     let Some(record) = franck() else { return };
     let bytes = to_lpr(&record, None, FPS).unwrap();

@@ -3,7 +3,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -227,6 +226,7 @@ fn recordings(folder: &Path, ending: &str) -> Vec<std::path::PathBuf> {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn on_speech_it_agrees_with_another_method_where_that_is_sure() {
     for (kind, ending) in
         [("espeak", "_150.wav"), ("espeak", "_snr20.wav"), ("mbrola", ".wav"), ("real", ".wav"), ("self", ".wav")]
@@ -252,6 +252,7 @@ fn on_speech_it_agrees_with_another_method_where_that_is_sure() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_tones_of_espeak_have_their_shapes() {
     let Some(folder) = test_data::find("speech/espeak") else { return };
     let truth = std::fs::read_to_string(folder.join("truth.csv")).unwrap();

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-
 use crate::support::test_data;
 use std::io::Cursor;
 use std::path::Path;
@@ -379,6 +378,7 @@ fn said(what: &str, errors: &[f64]) -> (f64, f64) {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn the_outer_ends_of_speech_are_found() {
     let Some(folder) = test_data::find("speech") else { return };
     for (noisy, name) in [(false, "clean"), (true, "20 dB")] {
@@ -424,6 +424,7 @@ fn with_noise(sound: &Sound, db: f64) -> Sound {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn good_recordings_pass_without_remark_and_noisy_ones_do_not() {
     let Some(folder) = test_data::find("speech") else { return };
     for kind in ["espeak", "mbrola", "real", "self", "english"] {

@@ -2,9 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
-
-use lianpu::timeline::{KeyValue, Track};
 use crate::support::studio_bench::{Bench, TIMES, TOUCHING};
+use lianpu::timeline::{KeyValue, Track};
 
 #[test]
 fn guessed_times_are_marked_until_the_author_sets_them() {

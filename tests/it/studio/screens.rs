@@ -2,17 +2,16 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use crate::support::studio_bench::{Bench, SCORE, TIMES, lesson, text_of};
 use lianpu::disk::Fault;
 use lianpu::export::{CourseReport, Format};
 use lianpu::project::Lesson;
 use lianpu::studio::{Colours, ExportRequest, Exporter, Player, Progress, Show, Studio};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
-use crate::support::studio_bench::{Bench, SCORE, TIMES, lesson, text_of};
 
 #[test]
 fn lessons_clips_and_the_timeline_fit_80_by_24_and_fill_200_by_50() {

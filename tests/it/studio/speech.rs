@@ -3,13 +3,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
-
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use crate::support::studio_bench::{Bench, TIMES, found, lesson};
 use lianpu::project::Lesson;
 use lianpu::studio::{Aligner, Colours, Phase, Studio};
-use crate::support::studio_bench::{Bench, TIMES, found, lesson};
 
 const FOUND: [(f64, f64); 2] = [(0.31, 0.74), (0.78, 1.12)];
 

@@ -3,16 +3,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
-
 use std::path::{Path, PathBuf};
 
+use crate::support::studio_bench::Bench;
 use lianpu::calibration::{CalibrationFile, Marks, Source};
 use lianpu::face::{FeaturePoint, How, create};
 use lianpu::photo::Photo;
 use lianpu::pose::Emotion;
 use lianpu::project::{Change, Concern, Edit, Finding, Lesson, check};
 use lianpu::studio::{Colours, Studio};
-use crate::support::studio_bench::Bench;
 
 const XIYANG: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/projects/xiyang");
 

@@ -3,7 +3,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use std::collections::BTreeMap;
 
@@ -107,6 +106,7 @@ fn assert_closes(count: &Count) {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn lips_close_for_b_p_and_m_of_a_synthetic_voice_and_at_no_other_time() {
     if let Some(count) = count("espeak", |name| !name.contains("snr")) {
         assert!(count.closures >= 60);
@@ -115,6 +115,7 @@ fn lips_close_for_b_p_and_m_of_a_synthetic_voice_and_at_no_other_time() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn lips_close_for_b_p_and_m_of_a_voice_of_recorded_syllables_and_at_no_other_time() {
     if let Some(count) = count("mbrola", |_| true) {
         assert!(count.closures >= 5);

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
-
 use crate::support::test_data;
 use std::path::PathBuf;
 
@@ -28,6 +27,7 @@ fn timeline(spoken: &[Spoken], duration: f64) -> Timeline {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn lips_close_for_every_b_p_m_f_and_for_nothing_else() {
     let Some(folder) = test_data::find("speech/espeak") else { return };
     let (mut wanted, mut seen, mut open_frames, mut false_frames) = (0, 0, 0, 0);

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-
 use crate::support::test_data;
 use lianpu::timing::{Format, Interval, Tier, Timing, parse, read, writable, write, write_tier};
 use proptest::prelude::*;
@@ -484,6 +483,7 @@ fn only_json_keeps_that_times_are_guessed_and_control_characters_come_through_no
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn every_textgrid_of_the_test_data_reads_and_comes_back_within_a_millisecond() {
     let Some(folder) = test_data::find("speech") else { return };
     let (mut files, mut far) = (0, 0.0_f64);

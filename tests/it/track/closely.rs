@@ -38,6 +38,7 @@ fn dips(series: &[f64], share: f64) -> Vec<(usize, usize, f64)> {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_talking_man_is_tracked_without_loss_closely_steadily_and_with_his_blinks() {
     let Some(franck) = &*FRANCK else { return };
     let source = Source::of(&franck.folder.join("frames"), 25.0).unwrap();

@@ -5,6 +5,7 @@ use lianpu::ratios::LprReader;
 use lianpu::track::{Live, relay};
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn live_frames_are_answered_one_by_one_and_near_what_the_whole_video_gives() {
     let Some(franck) = &*FRANCK else { return };
     let stage = staged(franck, 100, 100, |n, g| if (50..55).contains(&n) { pixels(g, |_, _| 7) } else { g.clone() });
@@ -42,6 +43,7 @@ impl std::io::Write for Closing {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_stream_of_frames_becomes_a_record_and_a_cut_or_a_closed_pipe_ends_it_cleanly() {
     let Some(franck) = &*FRANCK else { return };
     let mut bytes = b"YUV4MPEG2 W360 H288 F25:1 Cmono XCOLORRANGE=FULL\n".to_vec();

@@ -29,6 +29,7 @@ fn judge(name: &str, franck: &Franck, first: usize, stage: &Path, moved: impl Fn
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn what_cannot_be_seen_is_lost_said_and_found_again() {
     let Some(franck) = &*FRANCK else { return };
     let black = staged(franck, 100, 60, |n, g| if (20..30).contains(&n) { pixels(g, |_, _| 0) } else { g.clone() });

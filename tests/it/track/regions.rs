@@ -16,6 +16,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn regions_follow_eyes_and_mouth_much_as_the_model_does() {
     let Some(franck) = &*FRANCK else { return };
     let source = Source::of(&franck.folder.join("frames"), 25.0).unwrap();

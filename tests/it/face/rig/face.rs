@@ -19,6 +19,7 @@ fn a_symmetric_face_is_left_alone_and_a_wry_one_keeps_a_third_of_its_wryness() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn no_bound_of_what_a_face_can_have_touches_a_measured_one() {
     let plain =
         Proportions { symmetry: 0.0, ear_symmetry: 0.0, eye_width: 1.0, eye_height: 1.0, ..Proportions::NORMAL };

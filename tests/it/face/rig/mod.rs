@@ -8,8 +8,8 @@ mod face;
 mod mouth;
 mod sound;
 
-use crate::support::test_data;
 use crate::support::average_face;
+use crate::support::test_data;
 use std::path::Path;
 
 use lianpu::face::rig::{Neutral, Proportions};

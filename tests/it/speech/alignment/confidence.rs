@@ -22,6 +22,7 @@ fn mixed() -> Option<Vec<Recording>> {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn confidence_is_the_share_that_is_right() {
     let Some(recordings) = mixed() else { return };
     // Confidence, and whether both boundaries are within 50 ms.
@@ -66,6 +67,7 @@ fn confidence_is_the_share_that_is_right() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn what_a_person_has_set_is_kept() {
     let Some(recordings) = recordings::espeak("m0_150") else { return };
     for recording in recordings.iter().filter(|r| r.truth.len() >= 5).step_by(4) {
@@ -91,6 +93,7 @@ fn what_a_person_has_set_is_kept() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn takes_of_one_voice_are_no_worse_together() {
     let Some(mbrola) = recordings::mbrola() else { return };
     let Some(espeak) = recordings::espeak("mf3_110") else { return };
@@ -109,6 +112,7 @@ fn takes_of_one_voice_are_no_worse_together() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn takes_of_a_person_stay_near_together() {
     let Some(recordings) = recordings::own_voice() else { return };
     let takes: Vec<Take<'_>> = recordings.iter().take(4).map(Recording::take).collect();

@@ -25,6 +25,7 @@ fn measured(what: &str, recordings: &[Recording]) -> Errors {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_voice_that_nothing_was_learned_from_is_aligned_within_20_ms() {
     let Some(recordings) = recordings::mbrola() else { return };
     let errors = measured("mbrola", &recordings);
@@ -32,6 +33,7 @@ fn a_voice_that_nothing_was_learned_from_is_aligned_within_20_ms() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn synthetic_voices_are_aligned_fast_and_slow() {
     for ending in ["m0_150", "mf3_110"] {
         let Some(recordings) = recordings::espeak(ending) else { return };
@@ -41,6 +43,7 @@ fn synthetic_voices_are_aligned_fast_and_slow() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn two_minutes_are_aligned_as_exactly_as_a_sentence() {
     let Some(recordings) = recordings::espeak("m0_150") else { return };
     let mut pieces = Vec::new();
@@ -58,6 +61,7 @@ fn two_minutes_are_aligned_as_exactly_as_a_sentence() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn noise_20_db_below_the_voice_does_little_harm() {
     let Some(recordings) = recordings::espeak("m0_150_snr20") else { return };
     let errors = measured("espeak, noise at 20 dB", &recordings);
@@ -65,6 +69,7 @@ fn noise_20_db_below_the_voice_does_little_harm() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn noise_10_db_below_the_voice_is_warned_of() {
     let Some(recordings) = recordings::espeak("m0_150") else { return };
     let noisy: Vec<Recording> =
@@ -78,6 +83,7 @@ fn noise_10_db_below_the_voice_is_warned_of() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_person_is_aligned_as_a_trained_aligner_does() {
     let Some(recordings) = recordings::real("htk") else { return };
     let errors = measured("real, HTK truth", &recordings);
@@ -85,6 +91,7 @@ fn a_person_is_aligned_as_a_trained_aligner_does() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_person_is_aligned_as_a_neural_aligner_does_but_for_its_offset() {
     let Some(recordings) = recordings::real("neural") else { return };
     let (errors, offset) = measured("real, neural truth, with its offset", &recordings).without_offset();
@@ -93,6 +100,7 @@ fn a_person_is_aligned_as_a_neural_aligner_does_but_for_its_offset() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn pauses_are_where_a_person_hears_them() {
     let Some((recording, ends)) = recordings::reading() else { return };
     let found = times(&recording.aligned());
@@ -103,6 +111,7 @@ fn pauses_are_where_a_person_hears_them() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn english_words_are_aligned() {
     let Some(recordings) = recordings::english() else { return };
     let errors = measured("english, words", &recordings);
@@ -111,6 +120,7 @@ fn english_words_are_aligned() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn lips_close_when_they_do() {
     let mut sets = Vec::new();
     for ending in ["m0_150", "mf3_110"] {
@@ -144,6 +154,7 @@ fn lips_close_when_they_do() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn equal_shares_are_no_match() {
     let Some(mbrola) = recordings::mbrola() else { return };
     let Some(espeak) = recordings::espeak("m0_150") else { return };
@@ -164,6 +175,7 @@ fn equal_shares_are_no_match() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn phones_fill_their_syllables_and_are_those_of_the_script() {
     let Some(recordings) = recordings::espeak("m0_150") else { return };
     for recording in recordings.iter().step_by(3) {

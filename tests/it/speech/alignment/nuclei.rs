@@ -51,6 +51,7 @@ impl Count {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn syllables_are_found_without_a_script() {
     for (ending, least) in [("m0_150", 0.97), ("mf3_110", 0.97), ("m0_150_snr20", 0.97)] {
         let Some(recordings) = recordings::espeak(ending) else { return };

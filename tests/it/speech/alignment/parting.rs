@@ -50,6 +50,7 @@ impl Tally {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn where_all_is_well_nothing_is_said() {
     let Some(recordings) = sentences() else { return };
     let mut real = recordings::real("htk").unwrap_or_default();
@@ -66,6 +67,7 @@ fn where_all_is_well_nothing_is_said() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn of_a_person_who_says_the_script_nothing_is_said() {
     let Some(recordings) = recordings::own_voice() else { return };
     let takes: Vec<_> = recordings.iter().map(Recording::take).collect();
@@ -86,6 +88,7 @@ fn of_a_person_who_says_the_script_nothing_is_said() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_word_that_is_not_in_the_script_is_pointed_out() {
     let Some(recordings) = sentences() else { return };
     let mut tally = Tally::default();
@@ -113,6 +116,7 @@ fn a_word_that_is_not_in_the_script_is_pointed_out() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_word_that_is_not_said_is_pointed_out() {
     let Some(recordings) = sentences() else { return };
     let extra = recordings::script(&["chuang1".into(), "hu5".into()]);
@@ -139,6 +143,7 @@ fn a_word_that_is_not_said_is_pointed_out() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_word_said_twice_is_pointed_out() {
     let Some(recordings) = sentences() else { return };
     let mut tally = Tally::default();
@@ -165,6 +170,7 @@ fn a_word_said_twice_is_pointed_out() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_long_silence_is_a_pause() {
     let Some(recordings) = sentences() else { return };
     let mut all = Errors::default();
@@ -181,6 +187,7 @@ fn a_long_silence_is_a_pause() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_hesitation_is_passed_over() {
     let Some(recordings) = sentences() else { return };
     // The e of 喝 in the sentence 我想喝一杯茶, drawn out by its middle.
@@ -208,6 +215,7 @@ fn a_hesitation_is_passed_over() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn a_script_of_something_else_is_doubted() {
     let Some(recordings) = sentences() else { return };
     let (mut told, mut tried) = (0, 0);
@@ -234,6 +242,7 @@ fn a_script_of_something_else_is_doubted() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn two_sentences_in_one_recording_are_as_good_as_one() {
     let Some(recordings) = recordings::espeak("mf3_110") else { return };
     let mut all = Errors::default();
@@ -246,6 +255,7 @@ fn two_sentences_in_one_recording_are_as_good_as_one() {
 }
 
 #[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
 fn speech_is_not_looked_for_in_the_silence_about_it() {
     let Some(recordings) = recordings::mbrola() else { return };
     let mut all = Errors::default();
