@@ -5,13 +5,12 @@
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use super::Shard;
+use super::aside::{self, Aside, put_aside};
 use super::manifest::{Asked, Entry, Manifest, within};
 use super::merge::parts_in;
-use crate::disk::{self, Fault, Message, Result};
+use crate::disk::{self, Fault, Result};
 
 /// What a running export knows of its files.
 #[derive(Debug)]
@@ -22,32 +21,6 @@ pub struct Ledger {
     files: Vec<Entry>,
     before: Vec<Manifest>,
     aside: Aside,
-}
-
-/// What an export has set aside, known also where it fails later.
-#[derive(Debug, Default)]
-pub struct Aside {
-    notes: Mutex<Vec<Message>>,
-    /// Files of others that had the names of frames.
-    pub(super) frames: AtomicU32,
-}
-
-impl Aside {
-    fn note(&self, note: String) {
-        self.notes.lock().unwrap_or_else(PoisonError::into_inner).push(note.into());
-    }
-
-    /// Takes the notes on what was set aside since they were last taken.
-    pub(super) fn take_notes(&self) -> Vec<Message> {
-        let mut notes = std::mem::take(&mut *self.notes.lock().unwrap_or_else(PoisonError::into_inner));
-        let count = self.frames.swap(0, Ordering::Relaxed);
-        let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
-        notes.extend((count > 0).then(|| {
-            format!("{files} among the frames were there and of no export; they are kept with a ~ behind their names")
-                .into()
-        }));
-        notes
-    }
 }
 
 impl Ledger {
@@ -119,7 +92,7 @@ impl Ledger {
 
     /// Before anything is written: what has the manifest's name and is none is set aside as a file is.
     pub(super) fn set_manifest_aside(&self) -> Result<()> {
-        if let Some(note) = set_manifest_aside(&self.folder, self.shard)? {
+        if let Some(note) = aside::set_manifest_aside(&self.folder, self.shard)? {
             self.aside.note(note);
         }
         Ok(())
@@ -200,28 +173,6 @@ impl Ledger {
         folder.lock().ok()?;
         Some(folder)
     }
-}
-
-/// Sets aside what has a manifest's name in a folder and is none; a note for the author.
-pub(super) fn set_manifest_aside(folder: &Path, shard: Shard) -> Result<Option<String>> {
-    let name = Manifest::name(shard);
-    let path = folder.join(&name);
-    let is_there = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
-    if !is_there || Manifest::read(&path).is_ok() {
-        return Ok(None);
-    }
-    let aside = put_aside(&path)?;
-    Ok(Some(format!("{name} was there and is no manifest of an export; it is kept as {name}{aside}")))
-}
-
-/// Renames a file to its name with a `~`, or with `~2` and so on where an earlier one has that. Returns what was added.
-pub(super) fn put_aside(path: &Path) -> Result<String> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push("~");
-    let kept = disk::free_name(Path::new(&beside));
-    let ending = kept.as_os_str().to_string_lossy()[path.as_os_str().to_string_lossy().len()..].to_owned();
-    let renamed = disk::rename(path, &kept);
-    renamed.map(|()| ending).map_err(|e| Fault::io("cannot keep what was changed in it", path, e))
 }
 
 /// Manifests of parts that this one makes void: those of another division where this is a part, and those whose every file

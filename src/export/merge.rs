@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::ledger::set_manifest_aside;
+use super::aside::set_manifest_aside;
 use super::manifest::{Entry, Manifest};
 use super::{ExportFault, Shard, divide};
 use crate::disk::{self, Fault, Message, Result, Setting, Task, clear_temporaries, message};

@@ -4,6 +4,7 @@
 //! An export can be stopped at any moment and run again: what is there and still right is not written again. How a form
 //! is made is the business of `forms`.
 
+mod aside;
 mod asked;
 mod beside;
 mod course;
@@ -22,6 +23,7 @@ mod repeats;
 mod run;
 mod whole;
 
+pub use aside::Aside;
 pub use asked::asked;
 pub use course::{CourseReport, Event, Observer, export_projects};
 pub use divide::{Share, divide, shard_of_array};
@@ -29,7 +31,7 @@ pub use farm::{Engine, Farm, MOST_TASKS};
 pub use fault::ExportFault;
 pub use format::Format;
 pub use frames::{FrameSet, Shard};
-pub use ledger::{Aside, Ledger};
+pub use ledger::Ledger;
 pub use lesson::{Exported, Place, Step, export};
 pub use manifest::{Asked, Entry, Manifest};
 pub use merge::{Merged, merge};

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
+use super::aside::{Aside, put_aside};
 use super::digests::Digests;
-use super::ledger::{Aside, put_aside};
 use super::manifest::within;
 use super::repeats::{Dedupe, Repeats, repeat};
 use super::{Entry, ExportFault, Format, Job};
