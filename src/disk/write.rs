@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::{Fault, FileFault, Result, door, settle, temporary_in};
+use super::{Fault, FileFault, Result, Rights, door, settle, temporary_in};
 
 /// Puts `bytes` at `path`, making its folder where it is missing: a temporary file beside it, flush, fsync, rename,
 /// fsync of the folder. A reader sees the old file or the new one, and a crash leaves one of the two.
@@ -28,12 +28,13 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 }
 
 /// Puts a temporary file of the same folder at `path` when it is on the disk: fsync, rename, fsync of the folder. A reader
-/// sees the old file or the new one, and a crash leaves one of the two.
+/// sees the old file or the new one, and a crash leaves one of the two. The file that it replaces gives it mode and group.
 ///
 /// # Errors
 /// When any of these steps fails; before the rename the old file is untouched.
 pub fn put_whole(mut file: NamedTempFile, path: &Path) -> std::io::Result<()> {
     file.flush()?;
+    Rights::of(path, path).give(file.as_file())?;
     file.as_file().sync_all()?;
     settle(file.into_temp_path(), path)?;
     match path.parent() {
@@ -120,5 +121,17 @@ mod tests {
         write_whole(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_private_file_stays_private_when_it_is_written_again() {
+        use std::os::unix::fs::PermissionsExt;
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("marks.txt");
+        fs::write(&path, b"one").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).unwrap();
+        write_output(&path, b"two").unwrap();
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o600);
     }
 }

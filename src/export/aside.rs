@@ -1,17 +1,21 @@
 //! Files that an export finds where its own belong and that no export wrote: renamed, and told to the author.
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::Shard;
-use super::manifest::Manifest;
+use super::manifest::{Entry, Manifest};
 use crate::disk::{self, Fault, Message, Result};
 
 /// What an export has set aside, known also where it fails later.
 #[derive(Debug, Default)]
 pub struct Aside {
     notes: Mutex<Vec<Message>>,
+    /// SHA-256 of the frames that earlier exports wrote, by path from the manifest's folder. Empty where an earlier run
+    /// did not come to its end: then the manifests may be older than the frames.
+    pub(super) wrote: HashMap<String, Vec<String>>,
     /// Files of others that had the names of frames.
     pub(super) frames: AtomicU32,
 }
@@ -21,14 +25,22 @@ impl Aside {
         self.notes.lock().unwrap_or_else(PoisonError::into_inner).push(note.into());
     }
 
+    /// Whether a frame may be as an earlier export wrote it: no manifest has it, or one has it with this content. `name` is
+    /// its path from the manifest's folder.
+    pub(super) fn may_be_exported(&self, name: &str, content: &[u8]) -> bool {
+        self.wrote.get(name).is_none_or(|sums| sums.contains(&Entry::of(String::new(), content).sha256))
+    }
+
     /// Takes the notes on what was set aside since they were last taken.
     pub(super) fn take_notes(&self) -> Vec<Message> {
         let mut notes = std::mem::take(&mut *self.notes.lock().unwrap_or_else(PoisonError::into_inner));
         let count = self.frames.swap(0, Ordering::Relaxed);
         let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
         notes.extend((count > 0).then(|| {
-            format!("{files} among the frames were there and of no export; they are kept with a ~ behind their names")
-                .into()
+            format!(
+                "{files} among the frames were of no export or changed since; they are kept with a ~ behind their names"
+            )
+            .into()
         }));
         notes
     }

@@ -29,8 +29,17 @@ impl Ledger {
     pub fn open(folder: &Path, shard: Shard) -> Self {
         let names = [draft(shard), Manifest::name(shard), Manifest::name(Shard::WHOLE)];
         // One that is damaged keeps nothing, and is written anew.
-        let before = names.iter().filter_map(|name| Manifest::read(&folder.join(name)).ok()).collect();
-        Self { folder: folder.to_owned(), shard, clips: Vec::new(), files: Vec::new(), before, aside: Aside::default() }
+        let before: Vec<Manifest> = names.iter().filter_map(|name| Manifest::read(&folder.join(name)).ok()).collect();
+        let mut aside = Aside::default();
+        if !folder.join(draft(shard)).exists() {
+            let parts = parts_in(folder).unwrap_or_default();
+            for entry in before.iter().chain(parts.iter().map(|(_, part)| part)).flat_map(|m| &m.files) {
+                if entry.path.ends_with(".svg") || entry.path.ends_with(".png") {
+                    aside.wrote.entry(entry.path.clone()).or_default().push(entry.sha256.clone());
+                }
+            }
+        }
+        Self { folder: folder.to_owned(), shard, clips: Vec::new(), files: Vec::new(), before, aside }
     }
 
     /// Whether nothing was asked for or made.
@@ -113,9 +122,14 @@ impl Ledger {
         })
     }
 
-    /// Of a divided export, when all is known that is asked of it: what an earlier run of this part wrote for another request
-    /// no longer counts as done.
+    /// When all is known that is asked of it: until it is closed, the draft says that files may be newer than the manifest.
+    /// In a divided export what an earlier run of this part wrote for another request no longer counts as done.
     pub fn begin(&self) {
+        if !self.before.is_empty() {
+            let _lock = self.lock();
+            // Without the draft, frames of a run that is killed would be taken for changed by somebody.
+            let _ = self.write_draft(|_| ());
+        }
         let path = self.folder.join(Manifest::name(self.shard));
         if self.shard != Shard::WHOLE && Manifest::read(&path).is_ok_and(|m| m.clips != self.clips) {
             let _ = disk::remove(&path);
@@ -145,26 +159,25 @@ impl Ledger {
             manifest = manifest.beside(earlier, &self.folder);
         }
         let path = manifest.write(&self.folder)?;
-        self.write_draft(|files| files.retain(|e| manifest.entry(&e.path).is_none()))?;
+        let name = draft(self.shard);
+        if let Ok(mut draft) = Manifest::read(&self.folder.join(&name)) {
+            draft.files.retain(|e| manifest.entry(&e.path).is_none());
+            match draft.files.is_empty() {
+                // Where it cannot be removed, the next run trusts the manifest less.
+                true => drop(disk::remove(&self.folder.join(&name))),
+                false => draft.write_as(&self.folder, &name)?,
+            }
+        }
         remove_superseded(&self.folder, &manifest);
         Ok(path)
     }
 
-    /// Changes the draft; an empty one is removed.
+    /// Changes the draft.
     fn write_draft(&self, change: impl FnOnce(&mut Vec<Entry>)) -> Result<()> {
         let name = draft(self.shard);
-        let there = Manifest::read(&self.folder.join(&name)).ok();
-        let before = there.as_ref().map_or(0, |m| m.files.len());
-        let mut files = there.map(|m| m.files).unwrap_or_default();
+        let mut files = Manifest::read(&self.folder.join(&name)).map(|m| m.files).unwrap_or_default();
         change(&mut files);
-        if !files.is_empty() {
-            return Manifest::new(self.shard, Vec::new(), files).write_as(&self.folder, &name);
-        }
-        if before > 0 {
-            // Nothing depends on its going.
-            let _ = disk::remove(&self.folder.join(name));
-        }
-        Ok(())
+        Manifest::new(self.shard, Vec::new(), files).write_as(&self.folder, &name)
     }
 
     /// Waits until no other export changes the folder's manifests. Where folders cannot be locked nobody waits.

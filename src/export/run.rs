@@ -71,7 +71,7 @@ pub fn run(
             }
         }
         if job.clears && !job.formats.is_empty() {
-            report.removed += remove_left_over(job);
+            report.removed += remove_left_over(job, aside);
         }
         if job.formats.is_empty() || job.frames.is_empty() {
             continue;
@@ -103,10 +103,9 @@ impl<'a> Tally<'a> {
 
     /// Sets aside what is where a frame goes and is no frame of this program. What was cut off while it was written, such
     /// as by a power cut, is nobody's work.
-    fn make_room(&self, path: &Path) -> Result<()> {
+    fn make_room(&self, job: &Job, path: &Path) -> Result<()> {
         let is_taken = path.symlink_metadata().is_ok_and(|there| !there.is_dir());
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-        if is_taken && !is_our_own(path, extension) && !is_cut_off(path, extension) {
+        if is_taken && !is_exported(job, path, self.aside) && !is_cut_off(path) {
             put_aside(path)?;
             self.aside.frames.fetch_add(1, Ordering::Relaxed);
         }
@@ -137,7 +136,7 @@ impl<'a> Tally<'a> {
         }
         let bytes = bytes()?;
         let bytes = bytes.as_ref();
-        self.make_room(path)?;
+        self.make_room(job, path)?;
         replace(path, bytes).map_err(elsewhere)?;
         self.written.fetch_add(1, Ordering::Relaxed);
         self.bytes.fetch_add(bytes.len() as u64, Ordering::Relaxed);
@@ -262,7 +261,7 @@ fn write_pngs(
             }
             None => {
                 let first = job.path_of(frames.first[*like], Format::Png);
-                tally.make_room(&path)?;
+                tally.make_room(job, &path)?;
                 let bytes = repeat(&first, &path, job.dedupe).map_err(elsewhere)?;
                 tally.written.fetch_add(1, Ordering::Relaxed);
                 tally.bytes.fetch_add(bytes, Ordering::Relaxed);
@@ -335,8 +334,8 @@ fn key_of(drawing: &Drawing, size: [u32; 2]) -> String {
 }
 
 /// Removes frames beyond the clip's end that an earlier export left: a video made of the folder would show them.
-/// Only numbered files that are our own are touched.
-fn remove_left_over(job: &Job) -> u32 {
+/// Only numbered files that an export wrote are touched.
+fn remove_left_over(job: &Job, aside: &Aside) -> u32 {
     let Ok(paths) = disk::list(&job.folder) else { return 0 };
     let mut removed = 0;
     for path in paths {
@@ -344,26 +343,27 @@ fn remove_left_over(job: &Job) -> u32 {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let beyond = number.is_some_and(|n: u32| n >= job.count);
         let asked = job.formats.iter().any(|f| f.name() == extension);
-        if beyond && asked && is_our_own(&path, extension) && disk::remove(&path).is_ok() {
+        if beyond && asked && is_exported(job, &path, aside) && disk::remove(&path).is_ok() {
             removed += 1;
         }
     }
     removed
 }
 
-/// Whether a picture's file lacks its end.
-fn is_cut_off(path: &Path, extension: &str) -> bool {
+/// Whether a picture's file begins as this program writes it and lacks its end.
+fn is_cut_off(path: &Path) -> bool {
     let Some(bytes) = read_old(path) else { return false };
-    match extension {
-        "png" => bytes.is_empty() || (bytes.starts_with(b"\x89PNG") && !bytes.ends_with(b"IEND\xAEB\x60\x82")),
-        _ => !bytes.trim_ascii_end().ends_with(b">"),
-    }
+    let holds = |end: &[u8]| bytes.windows(end.len()).any(|part| part == end);
+    let is_png = bytes.starts_with(b"\x89PNG") && !holds(b"IEND\xAEB\x60\x82");
+    bytes.is_empty() || is_png || (bytes.starts_with(b"<svg ") && !holds(b"</svg>"))
 }
 
-fn is_our_own(path: &Path, extension: &str) -> bool {
+/// Whether a picture's file is one that an export wrote, and nobody has changed since as far as the manifest says.
+fn is_exported(job: &Job, path: &Path, aside: &Aside) -> bool {
     let Some(bytes) = read_old(path) else { return false };
-    match extension {
-        "png" => decode_key(&bytes).is_some(),
+    let is_ours = match path.extension().and_then(|e| e.to_str()) {
+        Some("png") => decode_key(&bytes).is_some(),
         _ => String::from_utf8_lossy(&bytes).contains("<g id=\"dynamic\">"),
-    }
+    };
+    is_ours && aside.may_be_exported(&within(&job.root, path), &bytes)
 }

@@ -422,6 +422,38 @@ fn what_somebody_has_changed_is_kept_beside_what_is_written_anew() {
 }
 
 #[test]
+fn a_frame_that_somebody_has_changed_is_kept_beside_and_those_of_a_run_that_was_killed_are_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let export = |size: &str| {
+        let mut command = lianpu();
+        let forms = ["--to", "svg,png", "--frames", "0-5", "--dedupe", "none", "--size", size, "--out"];
+        command.arg("export").arg(sample("nihao")).args(forms).arg(&out);
+        String::from_utf8(command.assert().success().get_output().stderr.clone()).unwrap()
+    };
+    export("96x54");
+    let [svg, png] = ["svg", "png"].map(|form| out.join(format!("nihao/000002.{form}")));
+    let drawn = std::fs::read_to_string(&svg).unwrap().replace("</svg>", "<circle r=\"9\"/></svg>");
+    std::fs::write(&svg, &drawn).unwrap();
+    let told = export("96x54");
+    assert!(told.contains("1 file among the frames"), "{told}");
+    assert_eq!(std::fs::read_to_string(out.join("nihao/000002.svg~")).unwrap(), drawn);
+    assert!(!std::fs::read_to_string(&svg).unwrap().contains("circle r=\"9\""));
+    assert!(!export("98x54").contains('~'), "another size is nobody's change");
+
+    // Killed in the middle: frames are newer than the manifest, and its draft says so.
+    let kept =
+        ["manifest.json", "nihao/000003.png"].map(|name| (out.join(name), std::fs::read(out.join(name)).unwrap()));
+    export("96x54");
+    std::fs::write(&kept[0].0, &kept[0].1).unwrap();
+    std::fs::write(&kept[1].0, &kept[1].1).unwrap();
+    std::fs::copy(out.join("manifest.json"), out.join(".manifest.json.part")).unwrap();
+    assert!(!export("100x54").contains('~'));
+    assert!(!out.join(".manifest.json.part").exists());
+    assert!(png.exists() && !out.join("nihao/000003.png~").exists());
+}
+
+#[test]
 fn without_ffmpeg_a_video_is_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
