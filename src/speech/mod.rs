@@ -3,7 +3,7 @@
 //!
 //! A recording comes from `media`, what was said from `script`; how times are written down is the business of `timing`.
 
-pub mod align;
+mod align;
 mod alignment;
 mod fault;
 mod fourier;
@@ -16,6 +16,8 @@ mod sounding;
 mod spectrogram;
 
 pub use align::align;
+#[cfg(feature = "tools")]
+pub use align::training;
 pub use alignment::{Alignment, Note, Pin, SURE, SpokenPhone, SpokenSyllable, Take};
 pub use fault::SpeechFault;
 pub use nuclei::{Heard, nuclei};

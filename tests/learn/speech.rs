@@ -20,10 +20,7 @@ mod mixture;
 
 use std::path::{Path, PathBuf};
 
-use lianpu::speech::align::confidence::SIGNS;
-use lianpu::speech::align::features::DIMS;
-use lianpu::speech::align::model::{Model, Terms};
-use lianpu::speech::align::units::{ANY, SILENCE, UNITS, Unit};
+use lianpu::speech::training::{ANY, DIMS, Model, SIGNS, SILENCE, Terms, UNITS, Unit};
 
 use chance::Chance;
 use corpus::Lesson;

@@ -14,6 +14,7 @@ pub const CELL: usize = 4;
 /// Cells along a side of a template: two and a half pupil distances.
 pub const SIDE: usize = 10;
 /// Numbers in a window.
+#[cfg(feature = "tools")]
 pub const WINDOW: usize = SIDE * SIDE * BINS;
 /// The middle of a window, in pupil distances below the pupils: it reaches from above the brows to the chin.
 pub const BELOW: f64 = 0.40;
@@ -64,6 +65,7 @@ pub fn cells(plane: &Plane) -> Channels {
 }
 
 /// The numbers of the window whose first cell is at `x`, `y`.
+#[cfg(feature = "tools")]
 pub fn window(cells: &Channels, x: usize, y: usize, out: &mut Vec<f32>) {
     out.clear();
     for row in y..y + SIDE {

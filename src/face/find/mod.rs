@@ -4,18 +4,30 @@
 //! It owns what was learned of faces. It reads no files, and of colour it knows only luma. `tests/learn/faces.rs` is
 //! where its numbers come from.
 
-pub mod cascade;
-pub mod channels;
-pub mod detector;
+mod cascade;
+mod channels;
+mod detector;
 mod fit;
 mod given;
-pub mod looks;
+mod looks;
 mod model;
 mod pyramid;
 mod refusal;
 mod search;
-pub mod shape;
-pub mod weights;
+mod shape;
+mod weights;
+
+/// What learning the shipped model needs beside [`find()`].
+#[cfg(feature = "tools")]
+pub mod training {
+    pub use super::cascade::{Block, Chip, Moves, Stage};
+    pub use super::channels::DESCRIPTOR;
+    pub use super::detector::{BELOW, CELL, Detector, Hit, SCALE, SIDE, WINDOW, cells, window};
+    pub use super::looks::Looks;
+    pub use super::search::Candidate;
+    pub use super::shape::ShapeModel;
+    pub use super::weights::Matrix;
+}
 
 pub use fit::{Fit, Known};
 pub use given::{Anchors, Found, find, find_from};

@@ -7,19 +7,30 @@
 //!
 //! What was learned is in `learned.bin`; `NOTES.md` says from what, and `tests/learn/speech.rs` learns it again.
 
-pub mod chain;
+mod chain;
 mod coarse;
-pub mod confidence;
-pub mod features;
-pub mod lasting;
-pub mod model;
+mod confidence;
+mod features;
+mod lasting;
+mod model;
 mod outcome;
 mod reach;
-pub mod search;
-pub mod sections;
-pub mod units;
-pub mod voice;
-pub mod work;
+mod search;
+mod sections;
+mod units;
+mod voice;
+mod work;
+
+/// What learning the shipped model needs beside [`align`].
+#[cfg(feature = "tools")]
+pub mod training {
+    pub use super::confidence::{SIGNS, confidence};
+    pub use super::features::{DIMS, FRAMES, Features, RATE};
+    pub use super::model::{Gaussian, Model, Terms};
+    pub use super::units::{ANY, SILENCE, UNITS, Unit, spelled};
+    pub use super::work::Work;
+    pub use super::works;
+}
 
 use rayon::prelude::*;
 

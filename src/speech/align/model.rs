@@ -157,6 +157,7 @@ impl Model {
     }
 
     /// In bytes: a mean in two, a variance and a weight in one, each dimension with a scale of its own.
+    #[cfg(any(test, feature = "tools"))]
     #[must_use]
     pub fn write(&self) -> Vec<u8> {
         let mut out = b"LPS1".to_vec();

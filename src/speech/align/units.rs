@@ -29,6 +29,7 @@ pub const SILENCE: Unit = 0;
 /// Any voice: what is said that is not in the script, and characters whose reading is not known.
 pub const ANY: Unit = 1;
 /// The closure of a stop.
+#[cfg(test)]
 pub const CLOSURE: Unit = 2;
 
 /// Every unit. The times are for people who read: those of a synthesiser are others, and were tried.

@@ -313,6 +313,7 @@ impl Work {
     }
 
     /// How long what was heard lasts, in seconds.
+    #[cfg(feature = "tools")]
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.heard.len() as f64 / FRAMES

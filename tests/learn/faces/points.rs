@@ -1,9 +1,6 @@
 //! Learning the shapes of faces and the cascade that finds their points.
 
-use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
-use lianpu::face::find::channels::DESCRIPTOR;
-use lianpu::face::find::shape::ShapeModel;
-use lianpu::face::find::weights::Matrix;
+use lianpu::face::find::training::{Block, Chip, DESCRIPTOR, Matrix, Moves, ShapeModel, Stage};
 use lianpu::geometry::{Point, Similarity, Vec2};
 use nalgebra::DMatrix;
 use rayon::prelude::*;

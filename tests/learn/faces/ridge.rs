@@ -1,7 +1,7 @@
 //! Ridge regression by inner products of the samples, with honest predictions for each sample: made without any
 //! photo of its person.
 
-use lianpu::face::find::weights::Matrix;
+use lianpu::face::find::training::Matrix;
 use nalgebra::DMatrix;
 
 /// What was learned, and what it would say of people whom it has not seen.

@@ -1,11 +1,7 @@
 //! Learning everything from the photos of some people.
 
-use lianpu::face::find::cascade::{Block, Chip, Moves, Stage};
-use lianpu::face::find::channels::DESCRIPTOR;
-use lianpu::face::find::looks::Looks;
-use lianpu::face::find::shape::ShapeModel;
-use lianpu::face::find::weights::Matrix;
-use lianpu::face::find::{Candidate, Fit, Model, Pyramid};
+use lianpu::face::find::training::{Block, Candidate, Chip, DESCRIPTOR, Looks, Matrix, Moves, ShapeModel, Stage};
+use lianpu::face::find::{Fit, Model, Pyramid};
 use lianpu::geometry::{Point, Similarity};
 use lianpu::photo::Plane;
 use nalgebra::DMatrix;

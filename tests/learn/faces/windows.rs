@@ -1,8 +1,7 @@
 //! Learning the detector: windows with a face, windows without, and those without that it took for one.
 
 use lianpu::face::find::Pyramid;
-use lianpu::face::find::detector::{BELOW, CELL, Detector, Hit, SCALE, SIDE, WINDOW, cells, window};
-use lianpu::face::find::weights::Matrix;
+use lianpu::face::find::training::{BELOW, CELL, Detector, Hit, Matrix, SCALE, SIDE, WINDOW, cells, window};
 use lianpu::geometry::{Point, Similarity};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;

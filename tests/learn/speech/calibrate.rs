@@ -5,9 +5,7 @@ use std::path::Path;
 
 use lianpu::media::Sound;
 use lianpu::speech::Take;
-use lianpu::speech::align::confidence::{SIGNS, confidence};
-use lianpu::speech::align::model::Model;
-use lianpu::speech::align::works;
+use lianpu::speech::training::{Model, SIGNS, confidence, works};
 
 use crate::chance::Chance;
 use crate::corpus;

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 
 use lianpu::media::Sound;
 use lianpu::script::{Syllable, System, segments, syllables};
-use lianpu::speech::align::features::{FRAMES, Features, RATE};
-use lianpu::speech::align::units::{Unit, spelled};
+use lianpu::speech::training::{FRAMES, Features, RATE, Unit, spelled};
 
 use crate::chance::Chance;
 

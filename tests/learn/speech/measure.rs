@@ -5,8 +5,7 @@ use std::path::Path;
 
 use lianpu::media::Sound;
 use lianpu::script::{Syllable, System, syllables};
-use lianpu::speech::align::model::Model;
-use lianpu::speech::align::works;
+use lianpu::speech::training::{Model, works};
 use lianpu::speech::{Alignment, Take};
 
 use crate::chance::Chance;

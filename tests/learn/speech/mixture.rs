@@ -1,7 +1,6 @@
 //! Mixtures of Gaussians from frames, by splitting and expectation maximisation.
 
-use lianpu::speech::align::features::DIMS;
-use lianpu::speech::align::model::{Gaussian, Terms};
+use lianpu::speech::training::{DIMS, Gaussian, Terms};
 
 /// Frames one after the other.
 #[derive(Default, Clone)]
