@@ -82,36 +82,35 @@ struct PhotoTable {
     size: [u32; 2],
 }
 
-impl Face {
-    /// Reads the text of a `face.toml`.
-    ///
-    /// # Errors
-    /// When it is damaged, a point is missing or unknown, or a number cannot be; names the line where it is known.
-    pub fn parse(text: &str) -> Result<Self> {
-        let table: FileTable = from_toml(text)?;
-        if table.format != FORMAT {
-            return Err(Fault::of(FileFault::Version, format!("format {} is not known to this version", table.format))
-                .help(format!("this version reads format {FORMAT}")));
-        }
-        let line_of = |what: &str| text.lines().position(|l| l.trim_start().starts_with(what)).map(|l| l + 1);
-        let at_line = |fault: Fault, what: &str| match line_of(what) {
-            Some(line) => fault.line(line),
+/// The text of a file, for the line of a key in it.
+struct AtLine<'a>(&'a str);
+
+impl AtLine<'_> {
+    /// A fault with the line that begins with `key`, where there is one.
+    fn line(&self, fault: Fault, key: &str) -> Fault {
+        match self.0.lines().position(|l| l.trim_start().starts_with(key)) {
+            Some(line) => fault.line(line + 1),
             None => fault,
-        };
+        }
+    }
+}
+
+impl FileTable {
+    /// The points by their names: all that are not of the hair, and all of the hair or none.
+    fn placed(&self, at: &AtLine<'_>) -> Result<BTreeMap<FeaturePoint, Placed>> {
         let names: Vec<String> = FeaturePoint::all().map(FeaturePoint::name).collect();
         let mut placed: BTreeMap<FeaturePoint, Placed> = BTreeMap::new();
-        for (name, row) in &table.points {
+        for (name, row) in &self.points {
             let key = format!("\"{name}\"");
             let Some(point) = FeaturePoint::named(name) else {
                 let known: Vec<&str> = names.iter().map(String::as_str).collect();
                 let near = nearest(name, &known).map(|n| format!("did you mean \"{n}\"? ")).unwrap_or_default();
-                return Err(at_line(
-                    Fault::of(FileFault::Unknown, format!("there is no feature point \"{name}\"")),
-                    &key,
-                )
-                .help(format!("{near}the 72 are 4.6, 4.4a … 10.5 and h.1 to h.25")));
+                let what = format!("there is no feature point \"{name}\"");
+                return Err(at
+                    .line(Fault::of(FileFault::Unknown, what), &key)
+                    .help(format!("{near}the 72 are 4.6, 4.4a … 10.5 and h.1 to h.25")));
             };
-            placed.insert(point, row.placed(name).map_err(|fault| at_line(fault, &key))?);
+            placed.insert(point, row.placed(name).map_err(|fault| at.line(fault, &key))?);
         }
         let missing = |points: &mut dyn Iterator<Item = FeaturePoint>| {
             points.filter(|p| !placed.contains_key(p)).map(FeaturePoint::name).collect::<Vec<_>>()
@@ -129,40 +128,64 @@ impl Face {
             return Err(Fault::of(FileFault::Missing, format!("[points] lacks {}", hairless.join(", ")))
                 .help("hair has 25 points, or none where the head is bald"));
         }
-        let points = std::array::from_fn(|i| placed[&FeaturePoint::all().nth(i).expect("below 72")]);
-        let hair_points = hairless.is_empty().then(|| std::array::from_fn(|n| placed[&FeaturePoint::hair(n)]));
-        let measures = measures(&table.measures).map_err(|wrong| {
-            let (fault, what) = *wrong;
-            at_line(fault, what)
-        })?;
-        let outlines = |lists: &[Vec<[f64; 2]>], what: &str| -> Result<Vec<Vec<Point>>> {
+        Ok(placed)
+    }
+}
+
+impl HairTable {
+    fn read(self, points: Option<[Placed; FeaturePoint::HAIR]>, at: &AtLine<'_>) -> Result<Hair> {
+        let outlines = |lists: &[Vec<[f64; 2]>], key: &str| -> Result<Vec<Vec<Point>>> {
             let fits = lists.len() <= MAX_OUTLINES
                 && lists.iter().all(|l| (3..=MAX_VERTICES).contains(&l.len()))
                 && lists.iter().flatten().flatten().all(|v| v.abs() <= MAX_COORDINATE);
             if !fits {
-                return Err(at_line(
-                    Fault::of(FileFault::OutOfRange, format!("the outlines `{what}` of the hair cannot be")),
-                    what,
-                )
-                .help(format!(
+                let what = format!("the outlines `{key}` of the hair cannot be");
+                return Err(at.line(Fault::of(FileFault::OutOfRange, what), key).help(format!(
                     "at most {MAX_OUTLINES} outlines of 3 to {MAX_VERTICES} vertices, in pixels of the photo"
                 )));
             }
             Ok(lists.iter().map(|l| l.iter().map(|[x, y]| Point::new(*x, *y)).collect()).collect())
         };
-        let front = outlines(&table.hair.front, "front")?;
-        let back = outlines(&table.hair.back, "back")?;
-        let vertices = table.hair.vertices;
+        let front = outlines(&self.front, "front")?;
+        let back = outlines(&self.back, "back")?;
+        let vertices = self.vertices;
         let along = front.first().map_or(0, Vec::len);
         if !vertices.is_empty()
-            && (vertices.len() != FeaturePoint::HAIR || vertices.iter().any(|v| *v >= along) || hair_points.is_none())
+            && (vertices.len() != FeaturePoint::HAIR || vertices.iter().any(|v| *v >= along) || points.is_none())
         {
-            return Err(at_line(Fault::new("`vertices` of the hair does not fit its outline"), "vertices")
+            return Err(at
+                .line(Fault::new("`vertices` of the hair does not fit its outline"), "vertices")
                 .help("it has one place in the first outline of `front` for each of h.1 to h.25; or leave it out"));
         }
-        let photo = table.photo;
+        Ok(Hair { kind: self.kind, points, front, vertices, back })
+    }
+}
+
+impl Face {
+    /// Reads the text of a `face.toml`.
+    ///
+    /// # Errors
+    /// When it is damaged, a point is missing or unknown, or a number cannot be; names the line where it is known.
+    pub fn parse(text: &str) -> Result<Self> {
+        let table: FileTable = from_toml(text)?;
+        if table.format != FORMAT {
+            return Err(Fault::of(FileFault::Version, format!("format {} is not known to this version", table.format))
+                .help(format!("this version reads format {FORMAT}")));
+        }
+        let at = AtLine(text);
+        let placed = table.placed(&at)?;
+        let points = std::array::from_fn(|i| placed[&FeaturePoint::all().nth(i).expect("below 72")]);
+        let measures = measures(&table.measures).map_err(|wrong| {
+            let (fault, what) = *wrong;
+            at.line(fault, what)
+        })?;
+        let hair_points = placed
+            .contains_key(&FeaturePoint::hair(0))
+            .then(|| std::array::from_fn(|n| placed[&FeaturePoint::hair(n)]));
+        let hair = table.hair.read(hair_points, &at)?;
+        let (photo, c) = (table.photo, table.colours);
         if photo.sha256.len() != 64 || !photo.sha256.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return Err(at_line(Fault::new("`sha256` is not 64 hexadecimal digits"), "sha256").help(message![
+            return Err(at.line(Fault::new("`sha256` is not 64 hexadecimal digits"), "sha256").help(message![
                 "move face.toml aside: ",
                 Task::FindFace,
                 " writes it anew"
@@ -170,16 +193,9 @@ impl Face {
         }
         Ok(Self {
             points,
-            colours: Colours {
-                skin: table.colours.skin,
-                hair: table.colours.hair,
-                lips: table.colours.lips,
-                iris: table.colours.iris,
-                brows: table.colours.brows,
-                beard: table.colours.beard,
-            },
+            colours: Colours { skin: c.skin, hair: c.hair, lips: c.lips, iris: c.iris, brows: c.brows, beard: c.beard },
             measures,
-            hair: Hair { kind: table.hair.kind, points: hair_points, front, vertices, back },
+            hair,
             photo: PhotoRecord { sha256: photo.sha256, size: photo.size },
         })
     }
