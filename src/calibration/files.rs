@@ -52,6 +52,12 @@ pub struct ShotFiles {
     face: Option<Face>,
 }
 
+/// The first of the files `name.ENDING` that is there. A link that leads out of the folder is not followed.
+fn beside(folder: &Path, name: &str, endings: &[&str]) -> Option<PathBuf> {
+    let own = |ending: &&str| inside(folder, &format!("{name}.{ending}")).ok();
+    endings.iter().filter_map(own).find(|p| p.is_file())
+}
+
 impl ShotFiles {
     /// Reads a folder: `neutral.png` with `face.toml` or `neutral.pts`, `happy.png` … with `happy.toml` or `happy.pts`
     /// where there are such (`.jpg`, `.jpeg`, `.webp` and `.asf` too).
@@ -67,18 +73,7 @@ impl ShotFiles {
             named: Vec::new(),
             face: None,
         };
-        // A link that leads out of the folder is not followed.
-        let beside = |name: &str, endings: &[&str]| {
-            let own = |ending: &&str| inside(folder, &format!("{name}.{ending}")).ok();
-            endings.iter().filter_map(own).find(|p| p.is_file())
-        };
-        for emotion in Emotion::ALL {
-            let Some(path) = beside(emotion.name(), &PHOTOS) else { continue };
-            let bytes = read_bytes(&path, MAX_PHOTO_BYTES)?;
-            files.note(&path, &bytes);
-            files.greys[emotion.index()] = Some(Grey::decode(&bytes).map_err(|f| f.at(&path))?);
-            files.photos[emotion.index()] = Some(path);
-        }
+        files.read_photos(folder)?;
         let Some(neutral) = &files.greys[0] else {
             return Err(Fault::of(FileFault::Missing, "there is no neutral photo")
                 .at(folder)
@@ -86,16 +81,8 @@ impl ShotFiles {
         };
         let size = [neutral.width(), neutral.height()];
         let seen = neutral.to_photo();
-        let face = folder.join("face.toml");
-        if face.is_file() {
-            let text = read_text(&face)?;
-            let read = Face::parse(&text).map_err(|f| f.at(&face))?;
-            files.named = P::fixed().map(|p| (p, read.points[p.index()].at)).collect();
-            // Of the face only its points matter here: a new colour of hair makes no calibration stale.
-            files.sums.insert("face.toml".into(), sum_of_face(&read));
-            files.face = Some(read);
-        }
-        match beside("neutral", &ANNOTATIONS) {
+        files.read_face(folder)?;
+        match beside(folder, "neutral", &ANNOTATIONS) {
             Some(path) => {
                 files.points[0] = files.annotation(&path, size)?;
                 if files.face.is_none() {
@@ -118,41 +105,73 @@ impl ShotFiles {
         }
         let foreign = !files.points[0].is_empty();
         for emotion in &Emotion::ALL[1..] {
-            let i = emotion.index();
-            let Some(grey) = &files.greys[i] else { continue };
+            let Some(grey) = &files.greys[emotion.index()] else { continue };
             let size = [grey.width(), grey.height()];
-            if foreign {
-                if let Some(path) = beside(emotion.name(), &ANNOTATIONS) {
-                    files.points[i] = files.annotation(&path, size)?;
-                    if files.points[i].len() != files.points[0].len() {
-                        let what = format!(
-                            "it has {} points, the neutral one {}",
-                            files.points[i].len(),
-                            files.points[0].len()
-                        );
-                        return Err(Fault::new(what).at(&path).help("mark the same points in every shot"));
-                    }
-                }
-                continue;
-            }
-            let path = folder.join(format!("{emotion}.toml"));
-            if path.is_file() {
-                let text = read_text(&path)?;
-                let marks = Marks::parse(&text).map_err(|f| f.at(&path))?;
-                // Points of another photo, one that has been retaken since, say nothing of this one.
-                let photo =
-                    files.photos[i].as_ref().and_then(|p| p.file_name()).map(|n| n.to_string_lossy().into_owned());
-                if photo.is_none_or(|name| files.sums.get(&name) != Some(&marks.photo)) {
-                    continue;
-                }
-                // What was found is made of the other files and says nothing new; what a hand has set does.
-                if let Some(sum) = sum_of_marks(&marks.points) {
-                    files.sums.insert(format!("{emotion}.toml"), sum);
-                }
-                files.points[i] = marks.points;
+            match foreign {
+                true => files.read_annotation(folder, *emotion, size)?,
+                false => files.read_marks(folder, *emotion)?,
             }
         }
         Ok(files)
+    }
+
+    fn read_photos(&mut self, folder: &Path) -> Result<()> {
+        for emotion in Emotion::ALL {
+            let Some(path) = beside(folder, emotion.name(), &PHOTOS) else { continue };
+            let bytes = read_bytes(&path, MAX_PHOTO_BYTES)?;
+            self.note(&path, &bytes);
+            self.greys[emotion.index()] = Some(Grey::decode(&bytes).map_err(|f| f.at(&path))?);
+            self.photos[emotion.index()] = Some(path);
+        }
+        Ok(())
+    }
+
+    /// Reads `face.toml`, where there is one.
+    fn read_face(&mut self, folder: &Path) -> Result<()> {
+        let path = folder.join("face.toml");
+        if path.is_file() {
+            let text = read_text(&path)?;
+            let face = Face::parse(&text).map_err(|f| f.at(&path))?;
+            self.named = P::fixed().map(|p| (p, face.points[p.index()].at)).collect();
+            // Of the face only its points matter here: a new colour of hair makes no calibration stale.
+            self.sums.insert("face.toml".into(), sum_of_face(&face));
+            self.face = Some(face);
+        }
+        Ok(())
+    }
+
+    /// Reads the annotation of a shot, where there is one: the same points as those of the neutral photo.
+    fn read_annotation(&mut self, folder: &Path, emotion: Emotion, size: [usize; 2]) -> Result<()> {
+        let Some(path) = beside(folder, emotion.name(), &ANNOTATIONS) else { return Ok(()) };
+        let points = self.annotation(&path, size)?;
+        if points.len() != self.points[0].len() {
+            let what = format!("it has {} points, the neutral one {}", points.len(), self.points[0].len());
+            return Err(Fault::new(what).at(&path).help("mark the same points in every shot"));
+        }
+        self.points[emotion.index()] = points;
+        Ok(())
+    }
+
+    /// Reads the points of a shot, where they are of its photo.
+    fn read_marks(&mut self, folder: &Path, emotion: Emotion) -> Result<()> {
+        let path = folder.join(format!("{emotion}.toml"));
+        if !path.is_file() {
+            return Ok(());
+        }
+        let text = read_text(&path)?;
+        let marks = Marks::parse(&text).map_err(|f| f.at(&path))?;
+        // Points of another photo, one that has been retaken since, say nothing of this one.
+        let photo = self.photos[emotion.index()].as_ref().and_then(|p| p.file_name());
+        let photo = photo.map(|n| n.to_string_lossy().into_owned());
+        if photo.is_none_or(|name| self.sums.get(&name) != Some(&marks.photo)) {
+            return Ok(());
+        }
+        // What was found is made of the other files and says nothing new; what a hand has set does.
+        if let Some(sum) = sum_of_marks(&marks.points) {
+            self.sums.insert(format!("{emotion}.toml"), sum);
+        }
+        self.points[emotion.index()] = marks.points;
+        Ok(())
     }
 
     fn note(&mut self, path: &Path, bytes: &[u8]) {

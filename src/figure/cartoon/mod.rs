@@ -215,27 +215,16 @@ impl Cartoon {
         let head_top = (place * Point::new(places[P::P3_6].midpoint(places[P::P3_5]).x, face.measures.head_top)).y;
         let top = skull_top(head_top, points, hair.is_some());
         let head = head::HeadShape::new(points, face.measures.jaw, style.jaw_round, top);
-        let mut view = VIEW;
-        let mut around = Rect::new(-jaw * 1.35, top, jaw * 1.35, points[P::P2_1].y);
-        for ear in [P::P10_4, P::P10_3] {
-            around = around.union_pt(points[ear]);
-        }
-        if let Some(hair) = hair.bounds() {
-            view = view.union(hair.inflate(ROOM, ROOM)).intersect(Rect::new(-400.0, -500.0, 400.0, 310.0));
-            around = around.union(hair);
-        }
-        view.y1 = view.y1.max(points[P::P2_1].y + 130.0);
-        around = around.intersect(view);
-        let face_view = Rect::new(around.x0 - 6.0, around.y0 - 6.0, around.x1 + 6.0, points[P::P2_1].y + 45.0);
+        let (view, face_view) = views(points, jaw, top, hair.bounds());
         let body = body::Body::new(points, face.measures.neck, jaw, view);
 
-        let outline = head.outline(points);
         let growth = beard::Growth::of(
             &face.measures.beard,
             Oklch::from(pen.palette.skin).l > 0.6,
             style.beard == style::Choice::Yes,
         );
         let beard = growth.filter(|_| style.beard != style::Choice::No);
+        let outline = head.outline(points);
         let glasses = style.glasses.or(face.measures.glasses > 0.5);
         let mut skin = skin::skin(&pen, &outline);
         skin.extend(skin::blush(&pen, points, &outline));
@@ -282,6 +271,22 @@ impl Cartoon {
         cartoon.fingerprint = cartoon.draw(&crate::pose::Pose::default()).fingerprint();
         cartoon
     }
+}
+
+/// What the drawing shows, and what a close-up of the face shows: around the jaw, the ears and the hair.
+fn views(points: &Points, jaw: f64, top: f64, hair: Option<Rect>) -> (Rect, Rect) {
+    let mut view = VIEW;
+    let mut around = Rect::new(-jaw * 1.35, top, jaw * 1.35, points[P::P2_1].y);
+    for ear in [P::P10_4, P::P10_3] {
+        around = around.union_pt(points[ear]);
+    }
+    if let Some(hair) = hair {
+        view = view.union(hair.inflate(ROOM, ROOM)).intersect(Rect::new(-400.0, -500.0, 400.0, 310.0));
+        around = around.union(hair);
+    }
+    view.y1 = view.y1.max(points[P::P2_1].y + 130.0);
+    around = around.intersect(view);
+    (view, Rect::new(around.x0 - 6.0, around.y0 - 6.0, around.x1 + 6.0, points[P::P2_1].y + 45.0))
 }
 
 impl Pen {

@@ -151,28 +151,9 @@ impl LineFigure {
             return Err(Fault::of(FileFault::Version, format!("`format` is {}", file.format))
                 .help(format!("this program reads figures of format {FIGURE_FORMAT}")));
         }
-        let d = file.drawings;
-        let lists = [d.neutral, d.happy, d.anger, d.disgust, d.sadness, d.fear, d.surprised];
-        let count = lists[0].len();
-        let mut drawings: [Vec<Knot>; 7] = Default::default();
-        for ((list, emotion), drawing) in lists.into_iter().zip(Emotion::ALL).zip(&mut drawings) {
-            if list.len() != count {
-                return Err(Fault::new(format!(
-                    "the drawing `{emotion}` has {} points, `neutral` has {count}",
-                    list.len()
-                ))
-                .help("the seven drawings need the same points"));
-            }
-            *drawing = knots(&list, emotion.name())?;
-        }
+        let (drawings, count) = file.drawings.read()?;
         let lines: Vec<Line> = file.lines.into_iter().map(|l| Line { name: l.name, points: l.points }).collect();
-        for line in &lines {
-            plain_name(&line.name)?;
-            if let Some(point) = line.points.iter().find(|p| **p >= count) {
-                return Err(Fault::new(format!("the line `{}` has a point {point}", line.name))
-                    .help(format!("points are numbered 0 to {}", count.saturating_sub(1))));
-            }
-        }
+        check_lines(&lines, count)?;
         if let Some([x, y]) = file.pivot.filter(|p| p.iter().any(|v| !v.is_finite() || v.abs() > FARTHEST)) {
             return Err(Fault::of(FileFault::OutOfRange, format!("`pivot` is [{x}, {y}]"))
                 .help(format!("give numbers up to {FARTHEST}")));
@@ -230,6 +211,35 @@ impl LineFigure {
             pivot,
         })
     }
+}
+
+impl Drawings {
+    /// The seven drawings in the order of the emotions, and how many points each has.
+    fn read(self) -> Result<([Vec<Knot>; 7], usize)> {
+        let lists = [self.neutral, self.happy, self.anger, self.disgust, self.sadness, self.fear, self.surprised];
+        let count = lists[0].len();
+        let mut drawings: [Vec<Knot>; 7] = Default::default();
+        for ((list, emotion), drawing) in lists.into_iter().zip(Emotion::ALL).zip(&mut drawings) {
+            if list.len() != count {
+                let what = format!("the drawing `{emotion}` has {} points, `neutral` has {count}", list.len());
+                return Err(Fault::new(what).help("the seven drawings need the same points"));
+            }
+            *drawing = knots(&list, emotion.name())?;
+        }
+        Ok((drawings, count))
+    }
+}
+
+/// Checks the names of lines, and that their points are among the `count` of a drawing.
+fn check_lines(lines: &[Line], count: usize) -> Result<()> {
+    for line in lines {
+        plain_name(&line.name)?;
+        if let Some(point) = line.points.iter().find(|p| **p >= count) {
+            return Err(Fault::new(format!("the line `{}` has a point {point}", line.name))
+                .help(format!("points are numbered 0 to {}", count.saturating_sub(1))));
+        }
+    }
+    Ok(())
 }
 
 /// An area that shows something: x, y, width and height.
