@@ -1,8 +1,8 @@
 //! The kinds of fault of a project.
 
-use crate::disk::FaultKind;
+use crate::disk::{Fault, FaultKind};
 
-/// The kind of a fault of this room, as [`Fault::kind`](crate::disk::Fault::kind) gives it.
+/// The kind of a fault of this room, as [`Fault::kind`] gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProjectFault {
@@ -31,3 +31,9 @@ pub enum ProjectFault {
 }
 
 impl FaultKind for ProjectFault {}
+
+/// The fault of a change that was made to other files than those that are there.
+pub(super) fn stale() -> Fault {
+    Fault::of(ProjectFault::Changed, "the change does not fit the lesson as it is now")
+        .help("the files were changed by other means")
+}

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use lianpu::calibration::Kept;
 use lianpu::disk::Lock;
 use lianpu::face::Face;
-use lianpu::project::{Change, Edit, Finding, Footage, Lesson, check};
+use lianpu::project::{Change, ClipEdit, Edit, FaceEdit, Finding, Footage, Lesson, check};
 use lianpu::ratios::Record;
 use lianpu::timeline::{Key, KeyValue};
 
@@ -65,17 +65,17 @@ fn change(lesson: &Lesson, kind: &str) -> Change {
         "times" => {
             let first = &lesson.clips[0].intervals()[0];
             let before = vec![(first.start, first.end)];
-            Edit::Times { clip: 0, first: 0, before, after: vec![(0.3, 0.7)] }
+            Edit::Clip(0, ClipEdit::Times { first: 0, before, after: vec![(0.3, 0.7)] })
         }
-        "score" => Edit::AddKey { clip: 0, key: Key::new(0.5, KeyValue::Blink(0.2)) },
+        "score" => Edit::Clip(0, ClipEdit::AddKey { key: Key::new(0.5, KeyValue::Blink(0.2)) }),
         "face" => {
             let before = lesson.faces[0].face.as_ref().map(Face::to_toml);
-            Edit::Face { face: 0, before, after: None }
+            Edit::Face(0, FaceEdit::Face { before, after: None })
         }
         _ => {
             let before = Footage { ratios: Some(ratios(0.5)), ..Footage::default() };
             let after = Footage { ratios: Some(ratios(0.25)), ..Footage::default() };
-            Edit::Tracked { clip: 0, before: Box::new(before), after: Box::new(after) }
+            Edit::Clip(0, ClipEdit::Tracked { before: Box::new(before), after: Box::new(after) })
         }
     };
     Change::one(kind, edit)
@@ -241,7 +241,7 @@ fn after_a_failure_a_session_that_dies_leaves_one_state_and_every_later_change()
     for how in [How::FailsOnce(EIO), How::Fails(ENOSPC)] {
         at_every_call(&case, how, |root, mut open, _, at| {
             let later = Key::new(0.9, KeyValue::Blink(0.2));
-            open.change(Change::one("later", Edit::AddKey { clip: 0, key: later })).unwrap();
+            open.change(Change::one("later", Edit::Clip(0, ClipEdit::AddKey { key: later }))).unwrap();
             drop(open);
             case.judge(root, 1, &(how, at));
         });

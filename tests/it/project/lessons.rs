@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use lianpu::disk::FileFault;
 use lianpu::pose::{Emotion, MouthShape, Ratios};
-use lianpu::project::{Change, Edit, Finding, Lesson, ProjectFault, check};
+use lianpu::project::{Change, ClipEdit, Edit, Finding, Lesson, ProjectFault, check};
 use lianpu::timeline::{Key, KeyValue, Marker, Range};
 use proptest::prelude::*;
 
@@ -40,7 +40,7 @@ fn times(lesson: &Lesson) -> Vec<(f64, f64)> {
 fn move_start(lesson: &Lesson, to: f64) -> Change {
     let before = vec![times(lesson)[0]];
     let after = vec![(to, before[0].1)];
-    Change::one("move a boundary", Edit::Times { clip: 0, first: 0, before, after })
+    Change::one("move a boundary", Edit::Clip(0, ClipEdit::Times { first: 0, before, after }))
 }
 
 /// Everything of a lesson that edits can change, as text.
@@ -58,7 +58,10 @@ fn a_change_is_made_saved_and_read_back() {
     lesson.change(change).unwrap();
     let label = lesson.clips[0].intervals()[1].label.clone();
     lesson
-        .change(Change::one("reading", Edit::Label { clip: 0, index: 1, before: label, after: "好{hao4}".into() }))
+        .change(Change::one(
+            "reading",
+            Edit::Clip(0, ClipEdit::Label { index: 1, before: label, after: "好{hao4}".into() }),
+        ))
         .unwrap();
     assert!(lesson.is_unsaved());
     let written = lesson.save().unwrap();
@@ -91,7 +94,7 @@ fn a_file_that_was_changed_by_something_else_is_not_overwritten() {
 #[test]
 fn what_is_noted_after_a_recovery_is_recovered_too() {
     let (_folder, root) = sample();
-    let key = |time| Change::one("key", Edit::AddKey { clip: 0, key: Key::new(time, KeyValue::Blink(0.2)) });
+    let key = |time| Change::one("key", Edit::Clip(0, ClipEdit::AddKey { key: Key::new(time, KeyValue::Blink(0.2)) }));
     let mut lesson = Lesson::open(&root).unwrap();
     lesson.change(key(0.5)).unwrap();
     drop(lesson);
@@ -154,7 +157,10 @@ fn what_was_not_saved_is_brought_back_from_the_journal() {
     let mut lesson = Lesson::open(&root).unwrap();
     let change = move_start(&lesson, 0.25);
     lesson.change(change).unwrap();
-    let change = Change::one("key", Edit::AddKey { clip: 0, key: Key::new(0.5, KeyValue::Mouth(Some(MouthShape::A))) });
+    let change = Change::one(
+        "key",
+        Edit::Clip(0, ClipEdit::AddKey { key: Key::new(0.5, KeyValue::Mouth(Some(MouthShape::A))) }),
+    );
     lesson.change(change).unwrap();
     let before = state(&lesson);
     // The connection is lost: nothing is saved, and the last line is cut off in the middle.
@@ -189,8 +195,8 @@ fn times_cannot_be_set_over_a_neighbour_and_a_failed_change_leaves_nothing_behin
     let change = Change {
         label: "both".into(),
         edits: vec![
-            Edit::Pin { clip: 0, index: 0, pinned: true },
-            Edit::Times { clip: 0, first: 0, before: vec![now[0]], after: vec![(now[0].0, now[1].0 + 0.1)] },
+            Edit::Clip(0, ClipEdit::Pin { index: 0, pinned: true }),
+            Edit::Clip(0, ClipEdit::Times { first: 0, before: vec![now[0]], after: vec![(now[0].0, now[1].0 + 0.1)] }),
         ],
     };
     assert!(lesson.change(change).unwrap_err().next_step().contains("there is room from"));
@@ -274,24 +280,27 @@ fn edit_of(lesson: &Lesson, kind: u32, number: f64) -> Vec<Edit> {
             let before = times(lesson);
             let end = before[0].1;
             let after = vec![(number * end * 0.9, end), before[1]];
-            vec![Edit::Times { clip: 0, first: 0, before, after }]
+            vec![Edit::Clip(0, ClipEdit::Times { first: 0, before, after })]
         }
-        1 => vec![Edit::AddKey {
-            clip: 0,
-            key: Key::new(number, KeyValue::Emotion(Ratios::some(Emotion::Fear, number))),
-        }],
-        2 => score.keys.first().map(|key| Edit::RemoveKey { clip: 0, key: *key }).into_iter().collect(),
-        3 => vec![Edit::AddRange { clip: 0, at: score.ranges.len() / 2, range: Range::new(number, number + 1.0) }],
+        1 => vec![Edit::Clip(
+            0,
+            ClipEdit::AddKey { key: Key::new(number, KeyValue::Emotion(Ratios::some(Emotion::Fear, number))) },
+        )],
+        2 => score.keys.first().map(|key| Edit::Clip(0, ClipEdit::RemoveKey { key: *key })).into_iter().collect(),
+        3 => vec![Edit::Clip(
+            0,
+            ClipEdit::AddRange { at: score.ranges.len() / 2, range: Range::new(number, number + 1.0) },
+        )],
         4 => {
             let last = score.ranges.len().checked_sub(1);
-            last.map(|at| Edit::RemoveRange { clip: 0, at, range: score.ranges[at] }).into_iter().collect()
+            last.map(|at| Edit::Clip(0, ClipEdit::RemoveRange { at, range: score.ranges[at] })).into_iter().collect()
         }
-        5 => vec![Edit::AddMarker { clip: 0, marker: Marker { time: number, text: format!("m{number}") } }],
-        6 => vec![Edit::Pin { clip: 0, index: 1, pinned: !score.pins.contains(&1) }],
+        5 => vec![Edit::Clip(0, ClipEdit::AddMarker { marker: Marker { time: number, text: format!("m{number}") } })],
+        6 => vec![Edit::Clip(0, ClipEdit::Pin { index: 1, pinned: !score.pins.contains(&1) })],
         _ => {
             let before = clip.intervals()[0].label.clone();
             let after = if before == "您" { "您{nin1}" } else { "您" };
-            vec![Edit::Label { clip: 0, index: 0, before, after: after.into() }]
+            vec![Edit::Clip(0, ClipEdit::Label { index: 0, before, after: after.into() })]
         }
     }
 }

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lianpu::project::{AlignJob, Change, Edit, Lesson, NewLesson, create};
+use lianpu::project::{AlignJob, Change, ClipEdit, Edit, Lesson, NewLesson, create};
 use lianpu::timing::{Interval, Tier, Timing};
 use serde_json::Value;
 
@@ -46,7 +46,10 @@ fn close(found: &[(f64, f64)], expected: &[(f64, f64)], by: f64) -> bool {
 fn end_first_at(lesson: &Lesson, end: f64) -> Change {
     let before = vec![times(lesson)[0]];
     let after = vec![(before[0].0, end)];
-    let edits = vec![Edit::Times { clip: 0, first: 0, before, after }, Edit::Pin { clip: 0, index: 0, pinned: true }];
+    let edits = vec![
+        Edit::Clip(0, ClipEdit::Times { first: 0, before, after }),
+        Edit::Clip(0, ClipEdit::Pin { index: 0, pinned: true }),
+    ];
     Change { label: "shorter".into(), edits }
 }
 
@@ -314,8 +317,8 @@ fn a_syllable_put_in_between_two_that_a_hand_set_finds_room_or_the_later_goes() 
     let mut lesson = Lesson::open(&root).unwrap();
     let before = times(&lesson);
     let after = vec![(0.3, 0.76), (0.76, 1.28)];
-    let pin = |index| Edit::Pin { clip: 0, index, pinned: true };
-    let edits = vec![Edit::Times { clip: 0, first: 0, before, after }, pin(0), pin(1)];
+    let pin = |index| Edit::Clip(0, ClipEdit::Pin { index, pinned: true });
+    let edits = vec![Edit::Clip(0, ClipEdit::Times { first: 0, before, after }), pin(0), pin(1)];
     lesson.change(Change { label: "both".into(), edits }).unwrap();
     lesson.save().unwrap();
     drop(lesson);

@@ -10,7 +10,7 @@ use lianpu::calibration::{CalibrationFile, Marks, Source};
 use lianpu::face::{FeaturePoint, How, create};
 use lianpu::photo::Photo;
 use lianpu::pose::Emotion;
-use lianpu::project::{Change, Concern, Edit, Finding, Lesson, check};
+use lianpu::project::{Change, Concern, Edit, FaceEdit, Finding, Lesson, check};
 use lianpu::studio::{Colours, Studio};
 
 const XIYANG: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/projects/xiyang");
@@ -155,7 +155,7 @@ fn journals_of_before_read_as_points_of_the_neutral_shot() {
     let text = r#"{"label":"move 3.6","edits":[{"point":{"face":0,"point":"3.6",
         "before":{"at":[1.0,2.0],"confidence":0.5,"how":"found"},"after":{"at":[2.0,2.0],"confidence":1.0,"how":"hand"}}}]}"#;
     let change: Change = serde_json::from_str(text).unwrap();
-    assert!(matches!(change.edits[0], Edit::Point { shot: Emotion::Neutral, .. }));
+    assert!(matches!(change.edits[0], Edit::Face(_, FaceEdit::Point { shot: Emotion::Neutral, .. })));
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::disk::nearest;
 use crate::face::{FeaturePoint, HairKind, How};
 use crate::geometry::{Point, Vec2};
 use crate::pose::{Emotion, MouthShape};
-use crate::project::{Change, Edit, LessonFace, Spot};
+use crate::project::{Change, Edit, FaceEdit, LessonFace, Spot};
 use crate::studio::app::action::Action;
 use crate::studio::screens::typing::TypingScreen;
 use crate::studio::widgets::prompt::Purpose;
@@ -109,7 +109,7 @@ fn shift(work: &mut FaceWork<'_, '_>, step: Vec2) {
         // As the file has it, so that what is read again is what was set.
         let at = [(to.x * 10.0).round() / 10.0, (to.y * 10.0).round() / 10.0];
         let after = Spot { at, confidence: 1.0, how: How::Hand };
-        Some(Edit::Point { face: number, shot, point: point.name(), before: Spot::from(*placed), after })
+        Some(Edit::Face(number, FaceEdit::Point { shot, point: point.name(), before: Spot::from(*placed), after }))
     };
     let mut edits: Vec<Edit> = edit(desk.point, step).into_iter().collect();
     let other = desk.point.mirror();
@@ -138,7 +138,7 @@ fn release_of_shot(work: &mut FaceWork<'_, '_>) {
         .map(|(point, placed)| {
             let before = Spot::from(placed);
             let after = Spot { how: How::Rule, confidence: 0.0, ..before };
-            Edit::Point { face, shot, point: point.name(), before, after }
+            Edit::Face(face, FaceEdit::Point { shot, point: point.name(), before, after })
         })
         .collect();
     if edits.is_empty() {
@@ -168,7 +168,7 @@ fn next_hair(work: &mut FaceWork<'_, '_>) {
     let (kind, name) = KINDS[(at + 1) % KINDS.len()];
     let mut after = face.clone();
     after.hair.kind = kind;
-    let edit = Edit::Face { face: desk.face, before: Some(face.to_toml()), after: Some(after.to_toml()) };
+    let edit = Edit::Face(desk.face, FaceEdit::Face { before: Some(face.to_toml()), after: Some(after.to_toml()) });
     work.change(Change::one(format!("hair: {name}"), edit));
 }
 

@@ -7,7 +7,7 @@ use super::work::FaceWork;
 use crate::disk::Result;
 use crate::face::{Anchors, Created, Face, FeaturePoint, How, create};
 use crate::photo::Photo;
-use crate::project::{Change, Edit};
+use crate::project::{Change, Edit, FaceEdit};
 use crate::studio::app::stack::{Job, Reporter, Stack};
 
 /// Gives the chosen point back to the search: it is found again with everything else.
@@ -95,7 +95,7 @@ fn found(work: &mut FaceWork<'_, '_>, face: &Face) {
         work.say("found the same points again");
         return;
     }
-    let edit = Edit::Face { face: work.desk.face, before, after: Some(after) };
+    let edit = Edit::Face(work.desk.face, FaceEdit::Face { before, after: Some(after) });
     if work.change(Change::one("find the face's points", edit)) {
         work.desk.placing = None;
         work.desk.zoom = 0;

@@ -1,7 +1,7 @@
 //! The change that tapping makes of a project.
 
 use super::clock::Tapping;
-use crate::project::{Change, Clip, Edit, counted};
+use crate::project::{Change, Clip, ClipEdit, Edit, counted};
 
 /// The shortest a syllable can be, in seconds, as when its edges are moved by hand.
 const SHORTEST: f64 = 0.02;
@@ -80,14 +80,14 @@ pub(super) fn change_of(number: usize, clip: &Clip, spoken: &[(usize, f64, f64)]
     let mut edits = Vec::new();
     if last > first {
         let (before, after) = (before[first..last].to_vec(), after[first..last].to_vec());
-        edits.push(Edit::Times { clip: number, first, before, after });
+        edits.push(Edit::Clip(number, ClipEdit::Times { first, before, after }));
     }
     for index in 0..after.len() {
         let was = clip.score.pins.binary_search(&index).is_ok();
         // Nobody vouches for what had to give way.
         let is = is_tapped(index) || was && !moved(&index);
         if was != is {
-            edits.push(Edit::Pin { clip: number, index, pinned: is });
+            edits.push(Edit::Clip(number, ClipEdit::Pin { index, pinned: is }));
         }
     }
     Ok(Change { label: format!("{} tapped", counted(spoken.len(), "syllable")), edits })

@@ -1,7 +1,7 @@
 //! Moving the boundary of a syllable. A boundary that two syllables share moves both; one that meets a neighbour stops
 //! there; no syllable gets shorter than can be seen.
 
-use crate::project::{Change, Clip, Edit};
+use crate::project::{Change, Clip, ClipEdit, Edit};
 
 /// The shortest a syllable can be made, in seconds: half a frame of the usual film, below any real syllable.
 const SHORTEST: f64 = 0.02;
@@ -64,9 +64,9 @@ pub(super) fn moved(
         _ => (syllable, vec![own], vec![after]),
     };
     let touched = first..first + before.len();
-    let mut edits = vec![Edit::Times { clip: number, first, before, after }];
+    let mut edits = vec![Edit::Clip(number, ClipEdit::Times { first, before, after })];
     let unpinned = touched.filter(|index| !clip.score.pins.contains(index));
-    edits.extend(unpinned.map(|index| Edit::Pin { clip: number, index, pinned: true }));
+    edits.extend(unpinned.map(|index| Edit::Clip(number, ClipEdit::Pin { index, pinned: true })));
     let text = clip.syllables.get(syllable).map_or("", |s| s.text.as_str());
     let verb = if side == Side::Start { "starts" } else { "ends" };
     Ok(Change { label: format!("{text} {verb} at {new:.3} s"), edits })

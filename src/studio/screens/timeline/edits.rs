@@ -4,7 +4,7 @@
 use super::desk::ClipDesk;
 use super::editor::{Editor, LaneKey, value_text};
 use super::{boundary, places, typed};
-use crate::project::{Change, Clip, Edit};
+use crate::project::{Change, Clip, ClipEdit, Edit};
 use crate::script::{Lang, System, reading};
 use crate::studio::app::action::{Action, Nudge};
 use crate::studio::app::lane::Lane;
@@ -138,8 +138,9 @@ pub(super) fn take(desk: &mut ClipDesk<'_, '_>, purpose: Purpose, text: &str) ->
         Purpose::Reading { syllable } => take_reading(desk, number, syllable, text),
         Purpose::Key { track, time, old, replaces } => {
             let key = Key { replaces, ..typed::key(track, text, time)? };
-            let mut edits: Vec<Edit> = old.map(|key| Edit::RemoveKey { clip: number, key }).into_iter().collect();
-            edits.push(Edit::AddKey { clip: number, key });
+            let mut edits: Vec<Edit> =
+                old.map(|key| Edit::Clip(number, ClipEdit::RemoveKey { key })).into_iter().collect();
+            edits.push(Edit::Clip(number, ClipEdit::AddKey { key }));
             let mut label = format!("{} {} at {time:.2} s", track_name(track), typed::key_text(&key));
             // Before its first key a track has that key's value: an emotion meant for here colours all that came before.
             let first = track == Track::Emotion && is_first_emotion(desk.clip());
@@ -155,8 +156,8 @@ pub(super) fn take(desk: &mut ClipDesk<'_, '_>, purpose: Purpose, text: &str) ->
             let range = typed::range(text, from, to)?;
             let at = old.map_or_else(|| desk.clip().score.ranges.len(), |(at, _)| at);
             let label = format!("{} from {from:.2} to {to:.2} s", typed::range_text(&range));
-            let removed = old.map(|(at, range)| Edit::RemoveRange { clip: number, at, range });
-            let edits = removed.into_iter().chain([Edit::AddRange { clip: number, at, range }]).collect();
+            let removed = old.map(|(at, range)| Edit::Clip(number, ClipEdit::RemoveRange { at, range }));
+            let edits = removed.into_iter().chain([Edit::Clip(number, ClipEdit::AddRange { at, range })]).collect();
             if desk.change(Change { label, edits }) {
                 desk.editor.mark = None;
             }
@@ -196,7 +197,7 @@ fn take_reading(desk: &mut ClipDesk<'_, '_>, number: usize, index: usize, text: 
         desk.say("it is read so already");
         return Ok(());
     }
-    desk.change(Change::one(label, Edit::Label { clip: number, index, before, after }));
+    desk.change(Change::one(label, Edit::Clip(number, ClipEdit::Label { index, before, after })));
     Ok(())
 }
 
@@ -214,8 +215,8 @@ fn move_key(desk: &mut ClipDesk<'_, '_>, by: i32) {
         desk.refuse("the clip ends here");
         return;
     }
-    let mut edits: Vec<Edit> = old.map(|key| Edit::RemoveKey { clip: number, key }).into_iter().collect();
-    edits.push(Edit::AddKey { clip: number, key });
+    let mut edits: Vec<Edit> = old.map(|key| Edit::Clip(number, ClipEdit::RemoveKey { key })).into_iter().collect();
+    edits.push(Edit::Clip(number, ClipEdit::AddKey { key }));
     let label = format!("{} key to {time:.3} s", track_name(key.value.track()));
     if desk.change(Change { label, edits }) {
         desk.go(time);
@@ -240,7 +241,7 @@ fn delete_key(desk: &mut ClipDesk<'_, '_>) {
     match key_here(desk) {
         Some((clip, LaneKey::Own(key))) => {
             let label = format!("{} key at {:.2} s deleted", track_name(key.value.track()), key.time);
-            desk.change(Change::one(label, Edit::RemoveKey { clip, key }));
+            desk.change(Change::one(label, Edit::Clip(clip, ClipEdit::RemoveKey { key })));
         }
         Some((_, LaneKey::Spoken(_))) => {
             desk.refuse("this key is speech's: Enter changes it, r changes how the syllable is read");
@@ -277,7 +278,7 @@ fn delete_range(desk: &mut ClipDesk<'_, '_>) {
     match range_here(editor, clip) {
         Some((at, range)) => {
             let label = format!("{} from {:.2} s deleted", typed::range_text(&range), range.from);
-            desk.change(Change::one(label, Edit::RemoveRange { clip: editor.clip, at, range }));
+            desk.change(Change::one(label, Edit::Clip(editor.clip, ClipEdit::RemoveRange { at, range })));
         }
         None => desk.say("no edited stretch at the cursor"),
     }
