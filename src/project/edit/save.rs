@@ -273,14 +273,18 @@ impl Clip {
             Some(_) if self.seen.script.is_some() => commit.remove(&script, self.seen.script)?,
             _ => {}
         }
-        if has_times {
+        let is_as_stored = self.timing == self.stored.0 && !is_gone(&times, self.seen.timing);
+        if is_as_stored && self.seen.timing.is_some() {
+            // Comments and tiers that mean nothing here stay as somebody wrote them.
+        } else if has_times {
             commit.put(&times, timing::write(&self.timing, Format::TextGrid), self.seen.timing)?;
         } else if self.seen.timing.is_some() {
             // Times of nothing; only what this program wrote, or has read as it is.
             commit.remove(&times, self.seen.timing)?;
         }
         self.stage_footage(commit)?;
-        if self.score != Score::default() || score.exists() {
+        let is_as_stored = self.score == self.stored.1 && !is_gone(&score, self.seen.score);
+        if !is_as_stored && (self.score != Score::default() || score.exists()) {
             commit.put(&score, self.score.to_toml(), self.seen.score)?;
         }
         Ok(())
@@ -320,6 +324,7 @@ impl Clip {
         }
         if sums.keys().any(|path| path.parent() == Some(&self.folder)) {
             self.kept_script.clone_from(&self.script);
+            self.stored = (self.timing.clone(), self.score.clone());
             self.footage_changed = false;
         }
     }

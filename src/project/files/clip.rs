@@ -52,6 +52,8 @@ pub struct Clip {
     pub warnings: Vec<Message>,
     /// Sums of the files that saving writes, as they were read.
     pub(in crate::project) seen: Seen,
+    /// Times and score as the files have them.
+    pub(in crate::project) stored: (Timing, Score),
     /// The script's own syllables, before labels gave other readings.
     pub(in crate::project) plain: Vec<Syllable>,
     /// The script as its file has it, or as the labels of the timing gave it.
@@ -128,6 +130,7 @@ impl Clip {
             score: Score::default(),
             warnings: Vec::new(),
             seen: Seen::default(),
+            stored: (Timing::default(), Score::default()),
             plain: Vec::new(),
             kept_script: String::new(),
             labels_are_script: false,
@@ -165,6 +168,7 @@ impl Clip {
                 .at(&folder)
                 .help("put a speech.wav with its script.txt there, a timing.TextGrid, a ratios.csv, or a video"));
         }
+        clip.stored = (clip.timing.clone(), clip.score.clone());
         Ok(clip)
     }
 

@@ -74,6 +74,43 @@ fn a_change_is_made_saved_and_read_back() {
 }
 
 #[test]
+fn a_save_leaves_files_of_which_nothing_changed_as_somebody_wrote_them() {
+    let (_folder, root) = sample();
+    let [score, times] = ["score.toml", "timing.TextGrid"].map(|name| root.join("clips/nihao").join(name));
+    std::fs::write(&score, "# mine\n[[marker]]\ntime = 0.5\ntext = \"here\"\n").unwrap();
+    let before = std::fs::read(&times).unwrap();
+    let mut lesson = Lesson::open(&root).unwrap();
+    let change = move_start(&lesson, 0.28);
+    lesson.change(change).unwrap();
+    lesson.save().unwrap();
+    assert!(std::fs::read_to_string(&score).unwrap().starts_with("# mine"));
+    assert_ne!(std::fs::read(&times).unwrap(), before);
+    let key = ClipEdit::AddKey { key: Key::new(0.5, KeyValue::Blink(0.2)) };
+    lesson.change(Change::one("key", Edit::Clip(0, key))).unwrap();
+    lesson.save().unwrap();
+    assert!(!std::fs::read_to_string(&score).unwrap().starts_with("# mine"));
+}
+
+#[test]
+fn a_key_of_a_frame_is_the_same_key_after_it_was_saved_and_read() {
+    let (_folder, root) = sample();
+    let key = |frame: f64| Key::new(frame / 29.97, KeyValue::Blink(1.0 / 3.0));
+    let mut lesson = Lesson::open(&root).unwrap();
+    lesson.change(Change::one("key", Edit::Clip(0, ClipEdit::AddKey { key: key(11.0) }))).unwrap();
+    lesson.save().unwrap();
+    let edits = [ClipEdit::RemoveKey { key: key(11.0) }, ClipEdit::AddKey { key: key(12.0) }];
+    let moved = Change { label: "move".into(), edits: edits.into_iter().map(|e| Edit::Clip(0, e)).collect() };
+    drop(lesson);
+    // By a reader of the file, and by a journal that is brought back to it.
+    let mut lesson = Lesson::open(&root).unwrap();
+    lesson.change(moved).unwrap();
+    drop(lesson);
+    let lesson = Lesson::open(&root).unwrap();
+    assert_eq!((lesson.recovered, lesson.lost), (1, 0));
+    assert_eq!(lesson.clips[0].score.keys.iter().filter(|k| k.is_same(&key(12.0))).count(), 1);
+}
+
+#[test]
 fn a_file_that_was_changed_by_something_else_is_not_overwritten() {
     let (_folder, root) = sample();
     let mut lesson = Lesson::open(&root).unwrap();
