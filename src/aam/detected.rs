@@ -26,7 +26,7 @@ const DOUBT: f64 = 0.02 * 0.02;
 
 impl Detected {
     /// Learns from pictures with their points; none where no face is found in any of them.
-    pub fn learned(shapes: &Shapes, shots: &[(&Grey, &[Point])]) -> Option<Self> {
+    pub(crate) fn learned(shapes: &Shapes, shots: &[(&Grey, &[Point])]) -> Option<Self> {
         let one = |(grey, points): &(&Grey, &[Point])| {
             let found = find(&grey.to_photo(), &[]).ok()?;
             let (frame, places) = framed(&found)?;
@@ -63,7 +63,7 @@ impl Detected {
     }
 
     /// The shape that a detection stands for; none where its pupils coincide.
-    pub fn start(&self, shapes: &Shapes, found: &Found) -> Option<Vec<Point>> {
+    pub(crate) fn start(&self, shapes: &Shapes, found: &Found) -> Option<Vec<Point>> {
         let (frame, places) = framed(found)?;
         let columns = self.mean.len();
         if places.len() != columns {

@@ -99,7 +99,7 @@ impl Model {
     ///
     /// # Errors
     /// When it cannot be read, and as [`from_bytes`](Self::from_bytes).
-    pub fn read(path: &Path) -> Result<Self> {
+    pub(crate) fn read(path: &Path) -> Result<Self> {
         Self::from_bytes(&read_bytes(path, MAX_BYTES)?).map_err(|f| f.at(path))
     }
 

@@ -33,7 +33,7 @@ pub(super) enum Channels {
 
 impl Channels {
     /// How many there are.
-    pub const fn count(self) -> usize {
+    pub(crate) const fn count(self) -> usize {
         match self {
             Self::Luma => 1,
             Self::Edges => 2,
@@ -47,7 +47,7 @@ const MOST: usize = 1 << 22;
 impl Ground {
     /// Takes the part of a picture within `region`, halved so often, then smoothed so often by 1, 2, 1. What lies
     /// outside the picture is not part of it, and whatever does not overlap it is its nearest corner.
-    pub fn lay(&mut self, grey: &Grey, region: Rect, halvings: u32, smooth: u32, channels: Channels) {
+    pub(crate) fn lay(&mut self, grey: &Grey, region: Rect, halvings: u32, smooth: u32, channels: Channels) {
         let side = |low: f64, high: f64, size: usize| {
             let low = low.floor().clamp(0.0, (size - 1) as f64) as usize;
             let high = high.ceil().clamp(low as f64, (size - 1) as f64) as usize;
@@ -174,24 +174,24 @@ impl Ground {
     }
 
     /// Pixels in a row, as a float, and the largest place along x and y.
-    pub fn size(&self) -> (f32, f32, f32) {
+    pub(crate) fn size(&self) -> (f32, f32, f32) {
         (self.width as f32, (self.width - 1) as f32, (self.height - 1) as f32)
     }
 
     /// The packed neighbours of each channel, row by row.
-    pub fn fours(&self) -> impl Iterator<Item = &[u32]> {
+    pub(crate) fn fours(&self) -> impl Iterator<Item = &[u32]> {
         self.fours.iter().map(|f| &f[..])
     }
 
     /// From places in the picture to its own.
-    pub fn enter(&self, xs: &mut [f32], ys: &mut [f32]) {
+    pub(crate) fn enter(&self, xs: &mut [f32], ys: &mut [f32]) {
         let [cx, cy] = self.corner;
         xs.iter_mut().for_each(|x| *x = (*x - cx) / self.step);
         ys.iter_mut().for_each(|y| *y = (*y - cy) / self.step);
     }
 
     /// From its own places to the picture's.
-    pub fn leave(&self, xs: &mut [f32], ys: &mut [f32]) {
+    pub(crate) fn leave(&self, xs: &mut [f32], ys: &mut [f32]) {
         let [cx, cy] = self.corner;
         xs.iter_mut().for_each(|x| *x = *x * self.step + cx);
         ys.iter_mut().for_each(|y| *y = *y * self.step + cy);

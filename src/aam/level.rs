@@ -39,7 +39,7 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    pub fn of(values: &[f64], deviation: f64) -> Self {
+    pub(crate) fn of(values: &[f64], deviation: f64) -> Self {
         let largest = values.iter().fold(0.0_f64, |l, v| l.max(v.abs())).max(1e-12);
         let step = (largest / 32_000.0) as f32;
         Self {
@@ -89,7 +89,7 @@ pub(super) struct Level {
 
 impl Level {
     /// Makes a level ready; none where the textures are not as many pixels as the table, or say nothing.
-    pub fn new(shapes: &Shapes, triangles: &[[usize; 3]], look: &Look) -> Option<Self> {
+    pub(crate) fn new(shapes: &Shapes, triangles: &[[usize; 3]], look: &Look) -> Option<Self> {
         let mean = shapes.mean();
         let table = Table::new(&mean, triangles, f64::from(look.width));
         let mut rows = vec![constant(&table, look.channels.count())];
@@ -167,17 +167,17 @@ impl Level {
     }
 
     /// How many rows `steps` has.
-    pub fn step_count(&self) -> usize {
+    pub(crate) fn step_count(&self) -> usize {
         self.directions.len() + 1
     }
 
     /// How many rows `looks` has.
-    pub fn look_count(&self) -> usize {
+    pub(crate) fn look_count(&self) -> usize {
         self.looks.len() / self.len().max(1)
     }
 
     /// How many numbers a reading has.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.table.len() * self.channels.count()
     }
 }

@@ -80,7 +80,7 @@ impl Model {
 
     /// The triangles of its points, as three of their numbers each.
     #[must_use]
-    pub fn triangles(&self) -> &[[usize; 3]] {
+    pub(crate) fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }
 

@@ -12,7 +12,7 @@ const SPAN: f64 = 5.0;
 impl Model {
     /// How many modes its look has.
     #[must_use]
-    pub fn looks(&self) -> usize {
+    pub(crate) fn looks(&self) -> usize {
         self.stored.last().map_or(0, |l| l.textures.len().saturating_sub(1))
     }
 
@@ -20,7 +20,7 @@ impl Model {
     /// a shape in a picture of `width` × `height` pixels: grey with alpha, nothing where the shape is
     /// not. Of a model that compares edges the mean strength of edges is painted, dark on light.
     #[must_use]
-    pub fn painted(&self, shape: &[Point], mode: usize, by: f64, [width, height]: [usize; 2]) -> Picture {
+    pub(crate) fn painted(&self, shape: &[Point], mode: usize, by: f64, [width, height]: [usize; 2]) -> Picture {
         let mut picture = Picture::filled(width, height, [0; 4]);
         let (Some(level), Some(look)) = (self.levels.last(), self.stored.last()) else { return picture };
         let table = &level.table;

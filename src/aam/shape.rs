@@ -24,7 +24,7 @@ impl Shapes {
     /// Learns from shapes: so many modes that they hold `share` of the variance, at most `most`. None where the shapes
     /// cannot be aligned.
     #[must_use]
-    pub fn learned(shapes: &[Vec<Point>], share: f64, most: usize) -> Option<Self> {
+    pub(crate) fn learned(shapes: &[Vec<Point>], share: f64, most: usize) -> Option<Self> {
         let aligned = align(shapes)?;
         let n = aligned.mean.len();
         let (low, high) = aligned.mean.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.x), h.max(p.x)));
@@ -69,7 +69,7 @@ impl Shapes {
 
     /// How many points a shape has.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
@@ -87,7 +87,7 @@ impl Shapes {
 
     /// The standard deviation along each mode.
     #[must_use]
-    pub fn deviations(&self) -> &[f32] {
+    pub(crate) fn deviations(&self) -> &[f32] {
         &self.deviations
     }
 
@@ -97,7 +97,7 @@ impl Shapes {
 
     /// The shape at `p` along the modes; modes without a number stay at 0.
     #[must_use]
-    pub fn shape(&self, p: &[f64]) -> Vec<Point> {
+    pub(crate) fn shape(&self, p: &[f64]) -> Vec<Point> {
         let mut vector = self.mean.clone();
         for (mode, by) in self.modes.iter().zip(p) {
             vector.iter_mut().zip(mode).for_each(|(v, m)| *v += *by as f32 * m);
@@ -108,7 +108,7 @@ impl Shapes {
     /// The pose and the place along the modes of a shape, by least squares; none for a shape without extent or of
     /// another number of points.
     #[must_use]
-    pub fn describe(&self, shape: &[Point]) -> Option<(Similarity, Vec<f64>)> {
+    pub(crate) fn describe(&self, shape: &[Point]) -> Option<(Similarity, Vec<f64>)> {
         if shape.len() != self.count {
             return None;
         }
@@ -196,7 +196,7 @@ pub(super) struct State {
 
 impl State {
     /// Pixels in a width of the mean shape.
-    pub fn scale(&self) -> f32 {
+    pub(crate) fn scale(&self) -> f32 {
         self.a.hypot(self.b)
     }
 }

@@ -39,7 +39,7 @@ const MARGIN: f64 = 3.0;
 
 impl Table {
     /// The pixels of a mean shape of the width 1 when drawn `width` pixels wide.
-    pub fn new(mean: &[Point], triangles: &[[usize; 3]], width: f64) -> Self {
+    pub(crate) fn new(mean: &[Point], triangles: &[[usize; 3]], width: f64) -> Self {
         let low = mean.iter().fold(Vec2::new(f64::MAX, f64::MAX), |l, p| Vec2::new(l.x.min(p.x), l.y.min(p.y)));
         let mut table = Self { low, width, ..Self::default() };
         let placed: Vec<Point> = mean.iter().map(|p| table.place(*p)).collect();
@@ -86,32 +86,32 @@ impl Table {
     }
 
     /// The place in the grid of a place in the mean shape.
-    pub fn place(&self, p: Point) -> Point {
+    pub(crate) fn place(&self, p: Point) -> Point {
         ((p.to_vec2() - self.low) * self.width + Vec2::new(MARGIN, MARGIN)).to_point()
     }
 
     /// How many pixels the mean shape has.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
     /// How many numbers a reading has: the pixels and what fills up, which reads as 0.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.u.len()
     }
 
     /// Pixels in a row of the grid, and rows.
-    pub fn size(&self) -> [usize; 2] {
+    pub(crate) fn size(&self) -> [usize; 2] {
         self.size
     }
 
     /// The place in the grid of each number of a reading; none for what fills up.
-    pub fn places(&self) -> impl Iterator<Item = Option<usize>> + '_ {
+    pub(crate) fn places(&self) -> impl Iterator<Item = Option<usize>> + '_ {
         self.grid.iter().map(|at| (*at != usize::MAX).then_some(*at))
     }
 
     /// The corners of the triangle and the shares along its sides of each number of a reading.
-    pub fn weights(&self) -> impl Iterator<Item = (usize, [usize; 3], [f32; 3])> + '_ {
+    pub(crate) fn weights(&self) -> impl Iterator<Item = (usize, [usize; 3], [f32; 3])> + '_ {
         self.runs.iter().flat_map(|r| {
             (r.first..r.first + r.count).map(|i| (i, r.corners, [1.0 - self.u[i] - self.v[i], self.u[i], self.v[i]]))
         })
@@ -119,7 +119,7 @@ impl Table {
 
     /// Reads a picture where a shape's triangles lie; bilinear, and beyond the border what lies nearest. `xs` and `ys`
     /// are places in `ground`; its channels are read one after the other; whatever is no number is read as 0.
-    pub fn read(&self, ground: &Ground, xs: &[f32], ys: &[f32], out: &mut [f32]) {
+    pub(crate) fn read(&self, ground: &Ground, xs: &[f32], ys: &[f32], out: &mut [f32]) {
         let (row, right, bottom) = ground.size();
         for (fours, out) in ground.fours().zip(out.chunks_exact_mut(self.len().max(1))) {
             self.read_channel(fours, [row, right, bottom], xs, ys, out);

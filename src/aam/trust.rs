@@ -12,7 +12,7 @@ pub(super) struct Trust {
 
 impl Trust {
     /// 0 to 1; at 0.5 and above a fit can be used.
-    pub fn confidence(&self, residual: f32) -> f64 {
+    pub(crate) fn confidence(&self, residual: f32) -> f64 {
         if !residual.is_finite() {
             return 0.0;
         }

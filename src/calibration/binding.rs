@@ -60,7 +60,7 @@ impl Binding {
 
     /// How many points the model has.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 

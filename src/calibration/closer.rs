@@ -35,7 +35,7 @@ pub(super) struct Laid {
 
 impl Flesh {
     /// Of a model's points in the frame of the neutral pupils, and the ways that the rig has for them.
-    pub fn new(points: &[Point], rig: &DMatrix<f64>) -> Self {
+    pub(crate) fn new(points: &[Point], rig: &DMatrix<f64>) -> Self {
         let n = points.len();
         let centres: Vec<Point> =
             if n <= 60 { points.to_vec() } else { points.iter().step_by(n.div_ceil(50)).copied().collect() };
@@ -57,7 +57,7 @@ impl Flesh {
     }
 
     /// Moves points from `start` to where they look as in `looks`. `fixed` are known, in pixels.
-    pub fn closer(
+    pub(crate) fn closer(
         &self,
         view: &View,
         looks: &[Patches],

@@ -22,7 +22,7 @@ const ANNOTATIONS: [&str; 2] = ["pts", "asf"];
 
 /// What tells the points of a face from others, as a calibration keeps it.
 #[must_use]
-pub fn sum_of_face(face: &Face) -> String {
+pub(crate) fn sum_of_face(face: &Face) -> String {
     let line = |p: P| {
         let at = face.points[p.index()].at;
         format!("{p} {:.1} {:.1}\n", at.x, at.y)
@@ -32,7 +32,7 @@ pub fn sum_of_face(face: &Face) -> String {
 
 /// The same of what a hand has set in a shot; none where nothing was set.
 #[must_use]
-pub fn sum_of_marks(points: &[Placed]) -> Option<String> {
+pub(crate) fn sum_of_marks(points: &[Placed]) -> Option<String> {
     // As exactly as the file says it, so that writing and reading it changes nothing.
     let by_hand = points.iter().enumerate().filter(|(_, p)| p.how == How::Hand);
     let set: String = by_hand.map(|(k, p)| format!("{k} {:.2} {:.2}\n", p.at.x, p.at.y)).collect();
@@ -219,7 +219,7 @@ impl ShotFiles {
     /// The file of a shot's points, as calibrating writes it: `happy.toml`'s text. None of a shot that there is not, and of
     /// somebody's own annotation.
     #[must_use]
-    pub fn marks(&self, emotion: Emotion, points: &[Placed]) -> Option<Marks> {
+    pub(crate) fn marks(&self, emotion: Emotion, points: &[Placed]) -> Option<Marks> {
         let path = self.photos[emotion.index()].as_ref()?;
         let photo = self.sums.get(&path.file_name()?.to_string_lossy().into_owned())?.clone();
         let ours = self.are_own() && emotion != Emotion::Neutral && points.len() == Binding::own_points().count();

@@ -41,7 +41,7 @@ const LEAST: f64 = 0.012;
 
 impl Seeing {
     /// From the neutral shot; none where no face is found in it.
-    pub fn new(neutral: &Grey, frame: &Similarity, named: &[(P, Point)], moves: &Moves) -> Option<Self> {
+    pub(crate) fn new(neutral: &Grey, frame: &Similarity, named: &[(P, Point)], moves: &Moves) -> Option<Self> {
         let hands: Vec<(P, Point)> = Vec::new();
         let found = find(&neutral.to_photo(), &hands).ok()?;
         let seen = named.iter().map(|(p, _)| frame.undo(found.points[p.index()].at)).collect();
@@ -49,7 +49,7 @@ impl Seeing {
     }
 
     /// The named points in another shot, by the finder and what faces can do. `hands` are known in pixels.
-    pub fn look(&self, found: &Found, hands: &[(P, Point)]) -> Option<Seen> {
+    pub(crate) fn look(&self, found: &Found, hands: &[(P, Point)]) -> Option<Seen> {
         let at: Vec<Point> = self.named.iter().map(|(p, _)| found.points[p.index()].at).collect();
         let errors: Vec<f64> = self
             .named

@@ -9,7 +9,7 @@ use crate::pose::Emotion;
 
 /// A shot of an emotion: its picture and what is known of its points.
 #[derive(Debug, Clone)]
-pub struct ShotInput<'a> {
+pub(crate) struct ShotInput<'a> {
     /// Its luma.
     pub grey: &'a Grey,
     /// Its points in pixels, as many as the neutral shot has; empty where nothing is known. Those that a hand has set

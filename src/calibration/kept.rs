@@ -10,7 +10,7 @@ use crate::photo::sha256;
 use crate::pose::Emotion;
 
 /// The name of the calibration's file.
-pub const CALIBRATION: &str = "calibration.toml";
+pub(crate) const CALIBRATION: &str = "calibration.toml";
 /// The name of the model's file.
 const MODEL: &str = "model.aam";
 
@@ -66,7 +66,7 @@ impl Kept {
 
     /// What `calibration.toml` holds of it.
     #[must_use]
-    pub fn file(&self) -> CalibrationFile {
+    pub(crate) fn file(&self) -> CalibrationFile {
         CalibrationFile {
             calibration: self.made.calibration.clone(),
             quality: self.made.quality.clone(),
@@ -102,7 +102,7 @@ impl Kept {
 
     /// Whether a folder's shots are still those that this was made from.
     #[must_use]
-    pub fn is_of(&self, folder: &Path) -> bool {
+    pub(crate) fn is_of(&self, folder: &Path) -> bool {
         ShotFiles::of(folder).is_ok_and(|files| files.sums == self.inputs)
     }
 
@@ -118,7 +118,12 @@ impl Kept {
     ///
     /// # Errors
     /// When a file that is there cannot be read, or points were changed by something else since.
-    pub fn stage(&self, folder: &Path, seen: impl Fn(Emotion) -> Option<Sum>, commit: &mut Commit) -> Result<()> {
+    pub(crate) fn stage(
+        &self,
+        folder: &Path,
+        seen: impl Fn(Emotion) -> Option<Sum>,
+        commit: &mut Commit,
+    ) -> Result<()> {
         for (emotion, marks) in &self.marks {
             commit.put(&folder.join(format!("{emotion}.toml")), marks.to_toml(), seen(*emotion))?;
         }

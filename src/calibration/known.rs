@@ -24,7 +24,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    pub fn of(inputs: &Inputs) -> Result<Self> {
+    pub(crate) fn of(inputs: &Inputs) -> Result<Self> {
         let at = |p: P| inputs.named.iter().find(|(n, _)| *n == p).map(|n| n.1);
         let missing =
             || Fault::of(FileFault::Missing, "the pupils of the neutral photo are not known").help("set 3.6 and 3.5");
@@ -44,18 +44,18 @@ impl Ground {
     }
 
     /// The model's points when the named ones have moved so, in the frame of the neutral pupils.
-    pub fn moved(&self, moves: &[Vec2]) -> Vec<Point> {
+    pub(crate) fn moved(&self, moves: &[Vec2]) -> Vec<Point> {
         self.points.iter().zip(self.spread.over(moves)).map(|(p, by)| *p + by).collect()
     }
 
     /// The part of the face whose named point is nearest to a place.
-    pub fn part_near(&self, at: Point) -> Option<Part> {
+    pub(crate) fn part_near(&self, at: Point) -> Option<Part> {
         let far = |n: &&(P, Point)| n.1.distance_squared(at);
         self.named.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map(|n| n.0.part())
     }
 
     /// The ways in which the model's points move: columns of x and y in turns, each one standard deviation.
-    pub fn ways(&self) -> nalgebra::DMatrix<f64> {
+    pub(crate) fn ways(&self) -> nalgebra::DMatrix<f64> {
         let named = self.moves.ways();
         let columns: Vec<Vec<Vec2>> = named
             .column_iter()
@@ -68,7 +68,7 @@ impl Ground {
     }
 
     /// The same in pixels of the neutral shot.
-    pub fn on_neutral(&self, moves: &[Vec2]) -> Vec<Point> {
+    pub(crate) fn on_neutral(&self, moves: &[Vec2]) -> Vec<Point> {
         self.moved(moves).into_iter().map(|p| self.frame.apply(p)).collect()
     }
 }
@@ -89,12 +89,12 @@ pub(super) struct Known<'a> {
 }
 
 impl Known<'_> {
-    pub fn is_marked(&self) -> bool {
+    pub(crate) fn is_marked(&self) -> bool {
         self.hands.iter().all(|h| *h)
     }
 
     /// How far it can be trusted as a whole, 0 to 1.
-    pub fn confidence(&self) -> f64 {
+    pub(crate) fn confidence(&self) -> f64 {
         let mean = self.errors.iter().sum::<f64>() / self.errors.len().max(1) as f64;
         self.look * trusted(mean)
     }

@@ -29,9 +29,11 @@ pub use binding::Binding;
 pub use calibrate::{Calibrated, calibrate};
 pub use decompose::{Choice, Decomposition, Reading};
 pub use file::CalibrationFile;
-pub use files::{ShotFiles, sum_of_face, sum_of_marks};
-pub use inputs::{Inputs, ShotInput};
-pub use kept::{CALIBRATION, Kept};
+pub use files::ShotFiles;
+pub(crate) use files::{sum_of_face, sum_of_marks};
+pub use inputs::Inputs;
+pub(crate) use kept::CALIBRATION;
+pub use kept::Kept;
 pub use marks::Marks;
 pub use quality::{Quality, Retake, ShotQuality};
 
@@ -122,7 +124,7 @@ impl Calibration {
 
     /// The similarity that lays a shape over the neutral one: the q of eq. 5, which is dropped.
     #[must_use]
-    pub fn lay(&self, shape: &[Point]) -> Option<Similarity> {
+    pub(crate) fn lay(&self, shape: &[Point]) -> Option<Similarity> {
         (shape.len() == self.laid[0].len()).then(|| Similarity::between(shape, &self.laid[0]))?
     }
 

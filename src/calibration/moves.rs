@@ -54,7 +54,7 @@ pub(crate) struct Moves {
 impl Moves {
     /// Of named points in the frame of the pupils: distance 1, the origin midway. Points that are not given are where
     /// a usual face has them, and only matter to the rig.
-    pub fn of(named: &[(P, Point)]) -> Self {
+    pub(crate) fn of(named: &[(P, Point)]) -> Self {
         let mut all = Points([Point::ORIGIN; P::FIXED]);
         for (p, at) in named {
             all[*p] = (at.to_vec2() * 100.0).to_point();
@@ -71,39 +71,39 @@ impl Moves {
     }
 
     /// To a pose.
-    pub fn pose(&self, pose: &Pose) -> Vec<Vec2> {
+    pub(crate) fn pose(&self, pose: &Pose) -> Vec<Vec2> {
         self.by(Expressions::general().mix(&pose.ratios), pose)
     }
 
     /// To an emotion, as far as faces show it.
-    pub fn emotion(&self, emotion: Emotion) -> Vec<Vec2> {
+    pub(crate) fn emotion(&self, emotion: Emotion) -> Vec<Vec2> {
         self.pose(&Pose::of(Ratios::some(emotion, SHOWN)))
     }
 
     /// To a mouth shape.
-    pub fn mouth(&self, shape: MouthShape, amount: f64) -> Vec<Vec2> {
+    pub(crate) fn mouth(&self, shape: MouthShape, amount: f64) -> Vec<Vec2> {
         let full = MouthPose::of(shape, MouthPreset::Distinct);
         self.pose(&Pose { mouth: MouthPose::REST.lerp(&full, amount), ..Pose::default() })
     }
 
     /// To lids so far open.
-    pub fn lids(&self, left: f64, right: f64) -> Vec<Vec2> {
+    pub(crate) fn lids(&self, left: f64, right: f64) -> Vec<Vec2> {
         self.pose(&Pose { lids: Lids { left, right }, ..Pose::default() })
     }
 
     /// To a glance, in heights of the eye.
-    pub fn gaze(&self, x: f64, y: f64) -> Vec<Vec2> {
+    pub(crate) fn gaze(&self, x: f64, y: f64) -> Vec<Vec2> {
         self.pose(&Pose { gaze: Gaze { x, y }, ..Pose::default() })
     }
 
     /// A head turned to the image's right and nodded down, in radians, as far as that is small.
-    pub fn head(&self, turn: f64, nod: f64) -> Vec<Vec2> {
+    pub(crate) fn head(&self, turn: f64, nod: f64) -> Vec<Vec2> {
         let by = |p: &P| Vec2::new(turn, nod) * depth_of(*p);
         self.places.iter().map(|(p, _)| by(p)).collect()
     }
 
     /// All the ways in which the points may move, each as far as one standard deviation: columns of x and y in turns.
-    pub fn ways(&self) -> DMatrix<f64> {
+    pub(crate) fn ways(&self) -> DMatrix<f64> {
         let rest = Expression::of(&Ratios::NEUTRAL).to_array();
         let mut list: Vec<Vec<Vec2>> = Vec::new();
         for (part, by) in SPREAD {

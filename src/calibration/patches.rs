@@ -24,7 +24,7 @@ pub(super) struct View {
 
 impl View {
     /// Of a picture in which the pupils are so many pixels apart.
-    pub fn of(grey: &Grey, pupils: f64) -> Self {
+    pub(crate) fn of(grey: &Grey, pupils: f64) -> Self {
         let mut view = Self { grey: grey.clone(), step: 1.0 };
         while pupils / view.step > 1.5 * FINE && view.grey.width().min(view.grey.height()) > 16 {
             view = Self { grey: view.grey.halved(), step: 2.0 * view.step };
@@ -57,14 +57,14 @@ pub(super) struct Patches(Vec<Vec<f32>>);
 
 impl Patches {
     /// From a shot: its points in the frame that `place` takes to pixels.
-    pub fn of(view: &View, place: &Similarity, points: &[Point]) -> Self {
+    pub(crate) fn of(view: &View, place: &Similarity, points: &[Point]) -> Self {
         Self(points.iter().map(|p| normal(view.samples(place, *p, HALF))).collect())
     }
 }
 
 impl Patches {
     /// Those of some points alone; the others are not looked for with them.
-    pub fn only(mut self, which: &[bool]) -> Self {
+    pub(crate) fn only(mut self, which: &[bool]) -> Self {
         for (patch, keep) in self.0.iter_mut().zip(which) {
             if !keep {
                 patch.clear();

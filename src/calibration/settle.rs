@@ -27,7 +27,7 @@ pub(super) struct Settling {
 
 impl Settling {
     /// From the neutral shot.
-    pub fn new(ground: &Ground, neutral: &Known) -> Self {
+    pub(crate) fn new(ground: &Ground, neutral: &Known) -> Self {
         let flesh = Flesh::new(&ground.points, &ground.ways());
         let view = View::of(neutral.grey, ground.frame.scale());
         let mut looks = vec![Patches::of(&view, &ground.frame, &ground.points)];
@@ -48,7 +48,7 @@ impl Settling {
 
     /// Moves the points of a shot that no hand has set. `blind` where they lie as on the neutral shot, since the finder
     /// saw no face; then false where no face is seen now either.
-    pub fn settle(&self, shot: &mut Known, blind: bool) -> bool {
+    pub(crate) fn settle(&self, shot: &mut Known, blind: bool) -> bool {
         let view = View::of(shot.grey, shot.place.scale());
         let points = shot.points.iter().map(|p| shot.place.undo(*p)).collect();
         let mut laid = Laid { place: shot.place, points, errors: shot.errors.clone(), like: 0.0 };

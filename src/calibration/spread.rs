@@ -18,7 +18,7 @@ const SOFT: f64 = 0.02;
 
 impl Spread {
     /// From a binding, the points of the model and the named ones of the same face, in one frame of pupil distance 1.
-    pub fn new(binding: &Binding, points: &[Point], named: &[(P, Point)]) -> Self {
+    pub(crate) fn new(binding: &Binding, points: &[Point], named: &[(P, Point)]) -> Self {
         let n = named.len();
         let mut weights = DMatrix::zeros(points.len(), n);
         let fixed: Vec<Option<usize>> = (0..points.len())
@@ -45,7 +45,7 @@ impl Spread {
     }
 
     /// The moves of the model's points for those of the named ones.
-    pub fn over(&self, moves: &[Vec2]) -> Vec<Vec2> {
+    pub(crate) fn over(&self, moves: &[Vec2]) -> Vec<Vec2> {
         let along = |f: fn(&Vec2) -> f64| &self.weights * DVector::from_iterator(moves.len(), moves.iter().map(f));
         let (x, y) = (along(|v| v.x), along(|v| v.y));
         x.iter().zip(y.iter()).map(|(x, y)| Vec2::new(*x, *y)).collect()

@@ -19,7 +19,7 @@ use crate::render::to_png;
 
 /// Train, fit and look at active appearance models.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(subcommand)]
     what: What,
 }
@@ -88,7 +88,7 @@ struct Inspect {
 }
 
 /// Runs one of them.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     match &args.what {
         What::Train(args) => train(args, out),
         What::Fit(args) => fit(args, out),

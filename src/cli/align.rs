@@ -19,7 +19,7 @@ use crate::timing::{self, Format, Interval, Tier, Timing};
 /// Find when each syllable of a script is spoken. In a lesson the times go into timing.TextGrid; boundaries that you have
 /// set stay as they are.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The lesson; its clips that have no times of their own yet.
     #[arg(value_name = "PROJECT", conflicts_with_all = ["speech", "script", "from"])]
     project: Option<PathBuf>,
@@ -50,7 +50,7 @@ pub struct Args {
 ///
 /// # Errors
 /// When a file cannot be read or written, or a recording and its script cannot be brought together.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     if let Some(path) = &args.out {
         let inputs: Vec<&Path> = [&args.speech, &args.script].into_iter().flatten().map(PathBuf::as_path).collect();
         spare(path, &inputs)?;

@@ -14,7 +14,7 @@ use crate::project::Lesson;
 /// Learn a person's seven emotions from photos: faces/NAME/neutral.png, happy.png, anger.png, disgust.png, sadness.png,
 /// fear.png, surprised.png, as many as there are. What it finds lasts for every clip of that person.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The lesson.
     #[arg(value_name = "PROJECT")]
     project: PathBuf,
@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 /// Calibrates a face and prints how good it is.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut lesson = Lesson::open_to_write(&args.project, "the calibration")?;
     super::note_state(&lesson);
     let number = lesson.face_named(args.face.as_deref()).map_err(Fault::of_the_call)?;

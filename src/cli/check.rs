@@ -10,7 +10,7 @@ use crate::project::{Finding, check, check_quality};
 
 /// Say what lessons have, lack, and have wrong. Exit code 1 if anything is wrong.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     projects: Vec<PathBuf>,
@@ -23,7 +23,7 @@ pub struct Args {
 }
 
 /// Checks every project and prints what it finds.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut wrong = 0;
     for project in &super::lessons(&args.projects) {
         if !args.json {

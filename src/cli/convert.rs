@@ -13,7 +13,7 @@ use crate::timing::{self, Format};
 
 /// What `lianpu convert` is asked.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The file to convert; its content tells what it is
     file: PathBuf,
     /// Times: textgrid, textgrid-short, srt, vtt, csv, json, audacity, ctm, lab. Mouth shapes: these and rhubarb-tsv,
@@ -44,7 +44,7 @@ pub struct Args {
 /// # Errors
 /// Of the call: a format that is unknown or cannot hold this, a tier that is not there. Of the input: a file that
 /// cannot be read, or has nothing to write.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     if let Some(path) = &args.out {
         let tracks = args.tracks.as_deref();
         let inputs: Vec<&Path> = [Some(args.file.as_path()), tracks].into_iter().flatten().collect();

@@ -21,7 +21,7 @@ use crate::render::to_png;
 
 /// Find the 72 points of a face and what else its cartoon needs.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The project: its face.toml is written; points set by hand stay.
     #[arg(value_name = "PROJECT", required_unless_present = "photo")]
     project: Option<PathBuf>,
@@ -47,7 +47,7 @@ pub struct Args {
 }
 
 /// Finds the face and prints what was found.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     for path in [&args.overlay, &args.sheet].into_iter().flatten() {
         let inputs: Vec<&Path> = args.photo.iter().map(PathBuf::as_path).collect();
         spare(path, &inputs)?;

@@ -14,7 +14,7 @@ use crate::project::Lesson;
 ///
 /// It is an array of parts, and a task after them that joins them.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// slurm, openjd or parallel.
     engine: Engine,
     /// The projects, or folders of them.
@@ -44,7 +44,7 @@ pub struct Args {
 ///
 /// # Errors
 /// When a lesson cannot be read, options are none of `lianpu export`, or a path cannot stand in a job.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let mut options = vec!["--to".to_owned(), args.formats.clone()];
     options.extend(args.more.iter().cloned());
     let request = super::export::request_of(&check_options(&options)?);

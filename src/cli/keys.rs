@@ -8,9 +8,9 @@ use crate::studio::key_list;
 
 /// Print the keys of the studio and of the player, place by place.
 #[derive(Debug, clap::Args)]
-pub struct Args {}
+pub(crate) struct Args {}
 
 /// Prints the keys.
-pub fn run(_: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(_: &Args, out: &mut dyn Write) -> Result<()> {
     say(out, key_list())
 }

@@ -9,7 +9,7 @@ use crate::export::merge;
 
 /// Join the parts of an export that was divided among machines, and check that nothing is missing or damaged.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The folder that the parts were exported into.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
@@ -22,7 +22,7 @@ pub struct Args {
 ///
 /// # Errors
 /// With what is missing or differs, and the part to be run again.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let merged = merge(&args.folder)?;
     if let Some(text) = &merged.note {
         note(text.as_str());

@@ -12,7 +12,7 @@ use crate::script::System;
 
 /// Make a lesson from a photo, a recording and its script, from a video, from times, or from ratios.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The folder to make; its last part names the lesson and its clip.
     #[arg(value_name = "PROJECT")]
     project: PathBuf,
@@ -60,7 +60,7 @@ pub struct Args {
 }
 
 /// Makes the lesson and prints what comes next.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let new = NewLesson {
         title: args.title.clone(),
         speech: args.speech.clone(),

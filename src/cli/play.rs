@@ -15,7 +15,7 @@ use crate::timeline::{Score, Sources, Timeline};
 
 /// Play a clip's face, or a ratio record, in the terminal.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The project; with --ratios, whose face shows them.
     #[arg(value_name = "PROJECT", required_unless_present_any = ["ratios", "of"])]
     project: Option<PathBuf>,
@@ -42,7 +42,7 @@ pub struct Args {
 /// # Errors
 /// Of the call: no terminal, a figure, clip or face that is not there. Of the input: a lesson or record that cannot be
 /// read; a record that is cut or damaged, after what there is of it was played.
-pub fn run(args: &Args) -> Result<()> {
+pub(crate) fn run(args: &Args) -> Result<()> {
     if !std::io::stdout().is_terminal() {
         return Err(Fault::new("playing needs a terminal").help("use `lianpu export` for files").of_the_call());
     }

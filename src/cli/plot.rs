@@ -15,7 +15,7 @@ use crate::timeline::Timeline;
 
 /// Draw charts of a clip.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The project.
     #[arg(value_name = "PROJECT")]
     project: PathBuf,
@@ -53,7 +53,7 @@ enum What {
 }
 
 /// Draws the chart and prints where it is.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     if let Some(path) = &args.out {
         let inputs: Vec<&Path> = args.font.iter().map(PathBuf::as_path).collect();
         spare(path, &inputs)?;

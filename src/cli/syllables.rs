@@ -11,7 +11,7 @@ use crate::script::{self, Lang, Syllable, System};
 
 /// Print the syllables of a text: character, Pinyin, Zhuyin, mouth shapes.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The text; `-` or nothing reads standard input.
     #[arg(allow_hyphen_values = true)]
     text: Option<String>,
@@ -34,7 +34,7 @@ struct Entry<'a> {
 }
 
 /// Prints one line a syllable, or one list of entries.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let text = match args.text.as_deref() {
         Some(text) if text != "-" => disk::clean(text),
         given => disk::clean(&standard_input(given.is_some())?),

@@ -11,7 +11,7 @@ use crate::track::Options;
 
 /// Follow the face in videos: the seven ratios of every frame into ratios.csv, its eyes, mouth and head into tracks.csv.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The lesson; its clips with videos that were not followed yet, or have changed since.
     #[arg(value_name = "PROJECT", required_unless_present = "live", conflicts_with_all = ["live", "model"])]
     project: Option<PathBuf>,
@@ -40,7 +40,7 @@ pub struct Args {
 ///
 /// # Errors
 /// When a file cannot be read or written, or no face is found in a video.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let options = if args.paper { Options::PAPER } else { Options::default() };
     match (&args.live, &args.model, &args.project) {
         (Some(input), Some(model), _) if input == Path::new("-") => live::run(model, &options, out),

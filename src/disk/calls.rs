@@ -103,6 +103,6 @@ pub trait Calls {
 
 /// The system's own calls.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct SystemCalls;
+pub(crate) struct SystemCalls;
 
 impl Calls for SystemCalls {}

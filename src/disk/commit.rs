@@ -52,7 +52,7 @@ impl<'a> Commit<'a> {
     /// A commit below `root`, whose record lies in the folder `own`. New files get no more rights than `like` has. `sent`
     /// are the sums of an earlier commit that failed: it may have written them all the same.
     #[must_use]
-    pub fn new(root: &'a Path, own: &'a Path, like: &'a Path, sent: &'a Sums) -> Self {
+    pub(crate) fn new(root: &'a Path, own: &'a Path, like: &'a Path, sent: &'a Sums) -> Self {
         Self { root, own, like, sent, files: Vec::new(), sums: Sums::new() }
     }
 
@@ -60,7 +60,7 @@ impl<'a> Commit<'a> {
     ///
     /// # Errors
     /// When the file was changed by something else since, or cannot be read.
-    pub fn put(&mut self, path: &Path, bytes: impl Into<Vec<u8>>, seen: Option<Sum>) -> Result<()> {
+    pub(crate) fn put(&mut self, path: &Path, bytes: impl Into<Vec<u8>>, seen: Option<Sum>) -> Result<()> {
         let bytes = bytes.into();
         let (now, new) = (Sum::at(path)?, Some(Sum::of(&bytes)));
         let is_known = now.is_none() || now == seen || now == new || self.sent.get(path).is_some_and(|s| *s == now);
@@ -75,7 +75,7 @@ impl<'a> Commit<'a> {
     ///
     /// # Errors
     /// When the file cannot be read.
-    pub fn put_over(&mut self, path: &Path, bytes: impl Into<Vec<u8>>) -> Result<()> {
+    pub(crate) fn put_over(&mut self, path: &Path, bytes: impl Into<Vec<u8>>) -> Result<()> {
         let bytes = bytes.into();
         let (now, new) = (Sum::at(path)?, Some(Sum::of(&bytes)));
         self.replace(path, Some(bytes), now, new);
@@ -86,7 +86,7 @@ impl<'a> Commit<'a> {
     ///
     /// # Errors
     /// When the file cannot be read.
-    pub fn remove(&mut self, path: &Path, seen: Option<Sum>) -> Result<()> {
+    pub(crate) fn remove(&mut self, path: &Path, seen: Option<Sum>) -> Result<()> {
         let now = Sum::at(path)?;
         if now.is_none() || now == seen {
             self.replace(path, None, now, None);
@@ -105,7 +105,7 @@ impl<'a> Commit<'a> {
 
     /// The sums that its files will have, those among them that have them already.
     #[must_use]
-    pub fn sums(&self) -> &Sums {
+    pub(crate) fn sums(&self) -> &Sums {
         &self.sums
     }
 
@@ -114,7 +114,7 @@ impl<'a> Commit<'a> {
     /// # Errors
     /// When a step fails before it is sure that all of them will be made: then every file is as it was. Where a single
     /// file is written, it may be in its place, though the folder could not be flushed.
-    pub fn run(mut self, calls: &mut dyn Calls) -> Result<Committed> {
+    pub(crate) fn run(mut self, calls: &mut dyn Calls) -> Result<Committed> {
         // What is written first, so that a temporary that is gone says that the renaming has begun; and the program's own
         // files before all others: notes that follow in the journal follow the commit.
         self.files.sort_by_key(|f| (f.bytes.is_none(), !f.path.starts_with(self.own)));
@@ -132,7 +132,7 @@ impl<'a> Commit<'a> {
     ///
     /// # Errors
     /// When one fails.
-    pub fn run_unrecorded(self, calls: &mut dyn Calls) -> Result<()> {
+    pub(crate) fn run_unrecorded(self, calls: &mut dyn Calls) -> Result<()> {
         self.files.iter().try_for_each(|file| self.run_one(file, calls))
     }
 

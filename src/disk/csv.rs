@@ -11,7 +11,7 @@ use super::{Fault, FileFault, Result};
 
 /// A table whose first row names its columns.
 #[derive(Debug, Default)]
-pub(crate) struct CsvTable {
+pub struct CsvTable {
     /// The names of the columns; none in a text without rows.
     pub names: Vec<String>,
     /// The line of the header, counted from 1; 0 where there is none.
@@ -22,7 +22,7 @@ pub(crate) struct CsvTable {
 
 /// One row of a [`CsvTable`].
 #[derive(Debug)]
-pub(crate) struct CsvRow {
+pub struct CsvRow {
     /// The line that the row begins on, counted from 1.
     pub line: usize,
     cells: StringRecord,
@@ -33,7 +33,7 @@ impl CsvTable {
     ///
     /// # Errors
     /// When it ends inside quotes, with the line that opens them.
-    pub fn read(text: &str) -> Result<Self> {
+    pub(crate) fn read(text: &str) -> Result<Self> {
         let text = with_quotes_first(text.strip_prefix('\u{FEFF}').unwrap_or(text))?;
         let mut reader = ReaderBuilder::new()
             .has_headers(false)
@@ -60,24 +60,24 @@ impl CsvTable {
     }
 
     /// The names of the columns that a header line gives; none where it is no header.
-    pub fn names_of(line: &str) -> Vec<String> {
+    pub(crate) fn names_of(line: &str) -> Vec<String> {
         Self::read(line).map(|table| table.names).unwrap_or_default()
     }
 
     /// The index of a column, whatever the capitals of its name.
-    pub fn column(&self, name: &str) -> Option<usize> {
+    pub(crate) fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|n| n.eq_ignore_ascii_case(name))
     }
 }
 
 impl CsvRow {
     /// The number of cells.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.cells.len()
     }
 
     /// The text of a cell without blanks around it; empty where the row ends before that column.
-    pub fn cell(&self, column: usize) -> &str {
+    pub(crate) fn cell(&self, column: usize) -> &str {
         self.cells.get(column).unwrap_or_default().trim()
     }
 }

@@ -11,7 +11,7 @@ use super::{FaultKind, FileFault, Message, NextStep, printable, shown};
 pub type Result<T, E = Fault> = std::result::Result<T, E>;
 
 /// Something in the input is wrong. Prints as up to three lines: what, where, what to do. The next step is a [`Message`]:
-/// a face words it with its own commands or keys by [`Fault::worded`].
+/// a face words it with its own commands or keys by `Fault::worded`.
 ///
 /// ```
 /// use lianpu::disk::Fault;
@@ -43,7 +43,7 @@ impl Fault {
 
     /// A fault of a kind, found in one line, with the offending text in backticks.
     #[must_use]
-    pub fn of(kind: impl FaultKind, what: impl Into<String>) -> Self {
+    pub(crate) fn of(kind: impl FaultKind, what: impl Into<String>) -> Self {
         Self(Box::new(Inner {
             kind: Box::new(kind),
             what: what.into(),
@@ -65,7 +65,7 @@ impl Fault {
 
     /// The same of a file or folder that could not be written, with what helps against the reason.
     #[must_use]
-    pub fn writing(doing: &str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
+    pub(crate) fn writing(doing: &str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
         use std::io::ErrorKind as Kind;
         let help = match source.kind() {
             Kind::StorageFull | Kind::QuotaExceeded => "make room there",
@@ -79,14 +79,14 @@ impl Fault {
 
     /// The file it is in. A file given further in wins over one given further out.
     #[must_use]
-    pub fn at(mut self, path: impl AsRef<Path>) -> Self {
+    pub(crate) fn at(mut self, path: impl AsRef<Path>) -> Self {
         self.0.path.get_or_insert_with(|| path.as_ref().to_owned());
         self
     }
 
     /// The line it is on, counted from 1.
     #[must_use]
-    pub fn line(mut self, line: usize) -> Self {
+    pub(crate) fn line(mut self, line: usize) -> Self {
         self.0.line.get_or_insert(line);
         self
     }
@@ -107,21 +107,21 @@ impl Fault {
 
     /// The same fault, of a part that was read by itself, with the part's place in the whole and no other.
     #[must_use]
-    pub fn in_part(mut self, part: impl fmt::Display) -> Self {
+    pub(crate) fn in_part(mut self, part: impl fmt::Display) -> Self {
         self.0.what = format!("{part}: {}", self.0.what);
         self.without_place()
     }
 
     /// The same fault without its file and line.
     #[must_use]
-    pub fn without_place(mut self) -> Self {
+    pub(crate) fn without_place(mut self) -> Self {
         (self.0.path, self.0.line) = (None, None);
         self
     }
 
     /// The same fault of a file below `from` as one of the same file below `to`.
     #[must_use]
-    pub fn moved(mut self, from: &Path, to: &Path) -> Self {
+    pub(crate) fn moved(mut self, from: &Path, to: &Path) -> Self {
         if let Some(path) = &mut self.0.path
             && let Ok(below) = path.strip_prefix(from)
         {
@@ -132,7 +132,7 @@ impl Fault {
 
     /// Marks the request, not the input, as what was wrong.
     #[must_use]
-    pub fn of_the_call(mut self) -> Self {
+    pub(crate) fn of_the_call(mut self) -> Self {
         self.0.call = true;
         self
     }
@@ -182,7 +182,7 @@ impl Fault {
 
     /// The fault as a message: what, where and the advice after each other.
     #[must_use]
-    pub fn to_message(&self) -> Message {
+    pub(crate) fn to_message(&self) -> Message {
         let mut head = self.0.what.clone();
         head.push_str(&self.place());
         if self.0.help.is_empty() { head.into() } else { self.0.help.clone().after(head + "\n  ") }
@@ -190,7 +190,7 @@ impl Fault {
 
     /// What is wrong, the name of the file it is in, and what to do, in one line.
     #[must_use]
-    pub fn in_a_line(&self) -> Message {
+    pub(crate) fn in_a_line(&self) -> Message {
         let mut head = self.0.what.clone();
         let name = self.0.path.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy());
         if let Some(name) = name.filter(|name| !head.contains(&**name)) {
@@ -201,7 +201,7 @@ impl Fault {
 
     /// The printed form, with every step of the advice as `word` puts it.
     #[must_use]
-    pub fn worded(&self, word: &dyn Fn(&NextStep) -> String) -> String {
+    pub(crate) fn worded(&self, word: &dyn Fn(&NextStep) -> String) -> String {
         printable(&self.to_message().worded(word)).into_owned()
     }
 

@@ -43,7 +43,7 @@ impl Lock {
 
     /// Who holds the lock at `path`, as `process 123 on HOST`; none where its file does not say.
     #[must_use]
-    pub fn holder(path: &Path) -> Option<String> {
+    pub(crate) fn holder(path: &Path) -> Option<String> {
         const LONGEST: usize = 120;
         let mut text = String::new();
         door::open(path).ok()?.take(LONGEST as u64).read_to_string(&mut text).ok()?;
@@ -52,7 +52,7 @@ impl Lock {
 
     /// Whether the lock's file is still the one at `path`.
     #[must_use]
-    pub fn is_at(&self, path: &Path) -> bool {
+    pub(crate) fn is_at(&self, path: &Path) -> bool {
         is_file_at(&self.file, path)
     }
 }
@@ -74,27 +74,27 @@ fn holder() -> String {
 
 /// A folder that is held open, so that another one at its path is noticed.
 #[derive(Debug)]
-pub struct HeldFolder {
+pub(crate) struct HeldFolder {
     folder: Option<File>,
 }
 
 impl HeldFolder {
     /// Holds the folder at `path`. Where the system opens no folders, nothing is noticed.
     #[must_use]
-    pub fn new(path: &Path) -> Self {
+    pub(crate) fn new(path: &Path) -> Self {
         Self { folder: door::open_folder(path).ok() }
     }
 
     /// Whether it is still the folder at `path`.
     #[must_use]
-    pub fn is_at(&self, path: &Path) -> bool {
+    pub(crate) fn is_at(&self, path: &Path) -> bool {
         self.folder.as_ref().is_none_or(|folder| is_file_at(folder, path))
     }
 
     /// Where it is now, however often it was renamed; none where it was removed or the system does not tell (only Linux
     /// does).
     #[must_use]
-    pub fn place(&self) -> Option<PathBuf> {
+    pub(crate) fn place(&self) -> Option<PathBuf> {
         let place = place_of(self.folder.as_ref()?)?;
         self.is_at(&place).then_some(place)
     }

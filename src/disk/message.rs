@@ -29,14 +29,14 @@ pub enum Part {
 impl Message {
     /// The same with one part more.
     #[must_use]
-    pub fn then(mut self, part: impl Into<Part>) -> Self {
+    pub(crate) fn then(mut self, part: impl Into<Part>) -> Self {
         self.parts.push(part.into());
         self
     }
 
     /// The text with every step as `word` puts it.
     #[must_use]
-    pub fn worded(&self, word: &dyn Fn(&NextStep) -> String) -> String {
+    pub(crate) fn worded(&self, word: &dyn Fn(&NextStep) -> String) -> String {
         let text = |part: &Part| match part {
             Part::Text(text) => text.clone(),
             Part::Step(step) => word(step),
@@ -60,7 +60,7 @@ impl Message {
 
     /// The same behind a text such as `clip nihao: `.
     #[must_use]
-    pub fn after(mut self, before: impl Into<String>) -> Self {
+    pub(crate) fn after(mut self, before: impl Into<String>) -> Self {
         self.parts.insert(0, Part::Text(before.into()));
         self
     }

@@ -85,13 +85,13 @@ pub struct NextStep {
 impl Task {
     /// This task with a setting.
     #[must_use]
-    pub fn with(self, setting: Setting, value: impl Into<String>) -> NextStep {
+    pub(crate) fn with(self, setting: Setting, value: impl Into<String>) -> NextStep {
         NextStep::from(self).with(setting, value)
     }
 
     /// A noun phrase.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Align => "aligning",
             Self::Calibrate => "calibrating",
@@ -110,13 +110,13 @@ impl Task {
 impl Setting {
     /// This setting with a value.
     #[must_use]
-    pub fn of(self, value: impl Into<String>) -> NextStep {
+    pub(crate) fn of(self, value: impl Into<String>) -> NextStep {
         NextStep::default().with(self, value)
     }
 
     /// A noun phrase.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Anchors => "the positions of eyes, mouth and chin",
             Self::Clip => "the clip",
@@ -143,14 +143,14 @@ impl Setting {
 impl NextStep {
     /// The same with one setting more, whose value is left to the user.
     #[must_use]
-    pub fn and(mut self, setting: Setting) -> Self {
+    pub(crate) fn and(mut self, setting: Setting) -> Self {
         self.settings.push((setting, None));
         self
     }
 
     /// The same with one setting more.
     #[must_use]
-    pub fn with(mut self, setting: Setting, value: impl Into<String>) -> Self {
+    pub(crate) fn with(mut self, setting: Setting, value: impl Into<String>) -> Self {
         self.settings.push((setting, Some(value.into())));
         self
     }

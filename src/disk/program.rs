@@ -50,7 +50,7 @@ pub enum Pipe {
 impl Program {
     /// Searches the absolute folders of the PATH for an executable file.
     #[must_use]
-    pub fn find(name: &str) -> Option<Self> {
+    pub(crate) fn find(name: &str) -> Option<Self> {
         let name = format!("{name}{}", std::env::consts::EXE_SUFFIX);
         let path = std::env::var_os("PATH")?;
         let folders = std::env::split_paths(&path).filter(|folder| folder.is_absolute());
@@ -59,13 +59,13 @@ impl Program {
 
     /// A program at a known path; not checked.
     #[must_use]
-    pub fn at(path: &Path) -> Self {
+    pub(crate) fn at(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
     /// The executable file.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
@@ -73,7 +73,11 @@ impl Program {
     ///
     /// # Errors
     /// When the file is not there or the system cannot run it.
-    pub fn start<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>, pipe: Pipe) -> io::Result<Running> {
+    pub(crate) fn start<A: AsRef<OsStr>>(
+        &self,
+        arguments: impl IntoIterator<Item = A>,
+        pipe: Pipe,
+    ) -> io::Result<Running> {
         let only = |wanted: Pipe| if pipe == wanted { Stdio::piped() } else { Stdio::null() };
         let mut command = Command::new(&self.path);
         command.args(arguments).env("AV_LOG_FORCE_NOCOLOR", "1").env_remove("FFREPORT");
@@ -142,12 +146,12 @@ impl Running {
     /// # Errors
     /// When it has closed its input or ended ([`give_up`](Self::give_up) has its messages), or was started without
     /// [`Pipe::Input`].
-    pub fn feed(&mut self, bytes: &[u8]) -> io::Result<()> {
+    pub(crate) fn feed(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.input.as_mut().ok_or(ErrorKind::BrokenPipe)?.write_all(bytes)
     }
 
     /// Its standard output, once; none without [`Pipe::Output`].
-    pub fn output(&mut self) -> Option<BufReader<ChildStdout>> {
+    pub(crate) fn output(&mut self) -> Option<BufReader<ChildStdout>> {
         self.output.take().map(|output| BufReader::with_capacity(OUTPUT_BUFFER, output))
     }
 
@@ -155,7 +159,7 @@ impl Running {
     ///
     /// # Errors
     /// When the system cannot wait for it.
-    pub fn ended(&mut self) -> io::Result<Ended> {
+    pub(crate) fn ended(&mut self) -> io::Result<Ended> {
         self.close();
         let status = self.child.wait()?;
         Ok(Ended { status, messages: self.messages() })
@@ -165,7 +169,7 @@ impl Running {
     ///
     /// # Errors
     /// Those of [`ended`](Self::ended).
-    pub fn ended_unless(&mut self, stop: &AtomicBool) -> io::Result<Option<Ended>> {
+    pub(crate) fn ended_unless(&mut self, stop: &AtomicBool) -> io::Result<Option<Ended>> {
         self.close();
         loop {
             if let Some(status) = self.child.try_wait()? {
@@ -179,7 +183,7 @@ impl Running {
     }
 
     /// Closes its pipes, and kills it where it does not end by itself within half a second.
-    pub fn give_up(&mut self) -> Messages {
+    pub(crate) fn give_up(&mut self) -> Messages {
         self.close();
         let start = Instant::now();
         while matches!(self.child.try_wait(), Ok(None)) && start.elapsed() < GRACE {
@@ -190,7 +194,7 @@ impl Running {
     }
 
     /// Kills it.
-    pub fn stop(&mut self) {
+    pub(crate) fn stop(&mut self) {
         // It may have ended by itself.
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -219,13 +223,13 @@ pub struct Messages(String);
 impl Messages {
     /// The text as it came; not safe to print.
     #[must_use]
-    pub fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         &self.0
     }
 
     /// Its lines, clean and each once, without the memory addresses that ffmpeg gives for its parts (`[mov @ 0x55d0]`).
     #[must_use]
-    pub fn lines(&self) -> Vec<String> {
+    pub(crate) fn lines(&self) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for line in self.0.lines() {
             let mut line = clean_line(line, LONGEST_LINE);

@@ -211,7 +211,7 @@ impl Pending {
     ///
     /// # Errors
     /// When a file cannot be read.
-    pub fn of(root: &Path, own: &Path) -> Result<Self> {
+    pub(crate) fn of(root: &Path, own: &Path) -> Result<Self> {
         match Record::open_in(own)? {
             Some(record) => Ok(Unfinished::of(&record, root, own)?.pending()),
             None => Ok(Self::default()),
@@ -222,7 +222,7 @@ impl Pending {
     ///
     /// # Errors
     /// As [`is_file_there`].
-    pub fn at(&self, path: &Path) -> Result<Option<PathBuf>> {
+    pub(crate) fn at(&self, path: &Path) -> Result<Option<PathBuf>> {
         let path = match self.files.get(path) {
             Some(Some(instead)) => instead,
             Some(None) => return Ok(None),

@@ -25,7 +25,7 @@ impl Rights {
     /// added to a private project is private.
     #[must_use]
     #[cfg(unix)]
-    pub fn of(path: &Path, like: &Path) -> Self {
+    pub(crate) fn of(path: &Path, like: &Path) -> Self {
         use std::os::unix::fs::MetadataExt;
         /// Its owner can write what is made new.
         const OWNER: u32 = 0o600;
@@ -38,7 +38,7 @@ impl Rights {
     /// A new file's usual ones: there are no modes here.
     #[must_use]
     #[cfg(not(unix))]
-    pub fn of(_path: &Path, _like: &Path) -> Self {
+    pub(crate) fn of(_path: &Path, _like: &Path) -> Self {
         Self::Usual
     }
 

@@ -19,7 +19,7 @@ pub struct Sum {
 impl Sum {
     /// The sum of bytes in memory.
     #[must_use]
-    pub fn of(bytes: &[u8]) -> Self {
+    pub(crate) fn of(bytes: &[u8]) -> Self {
         Self::new(bytes.len() as u64, Sha256::new_with_prefix(bytes))
     }
 
@@ -32,7 +32,7 @@ impl Sum {
     ///
     /// # Errors
     /// When it cannot be read, or is no regular file.
-    pub fn at(path: &Path) -> Result<Option<Self>> {
+    pub(crate) fn at(path: &Path) -> Result<Option<Self>> {
         let cannot = |e| Fault::io("cannot read it", path, e);
         let mut file = match door::open(path) {
             Ok(file) => file,

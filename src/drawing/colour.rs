@@ -39,7 +39,7 @@ impl Colour {
 
     /// What is seen where this opaque colour lies on another one with `share` of it covering: as opaque as `below`.
     #[must_use]
-    pub fn over(self, below: Self, share: f64) -> Self {
+    pub(crate) fn over(self, below: Self, share: f64) -> Self {
         let share = share.clamp(0.0, 1.0);
         let mixed = |a: u8, b: u8| (f64::from(b) + (f64::from(a) - f64::from(b)) * share).round() as u8;
         Self { r: mixed(self.r, below.r), g: mixed(self.g, below.g), b: mixed(self.b, below.b), a: below.a }
@@ -47,7 +47,7 @@ impl Colour {
 
     /// `#rrggbb` without the alpha.
     #[must_use]
-    pub fn hex(self) -> String {
+    pub(crate) fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.r, self.g, self.b)
     }
 }

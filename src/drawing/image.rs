@@ -55,7 +55,7 @@ impl<T> Image<T> {
     /// One row.
     #[must_use]
     #[inline]
-    pub fn row(&self, y: usize) -> &[T] {
+    pub(crate) fn row(&self, y: usize) -> &[T] {
         &self.pixels[y * self.width..(y + 1) * self.width]
     }
 
@@ -66,7 +66,7 @@ impl<T> Image<T> {
     }
 
     /// The rows from the top.
-    pub fn rows(&self) -> std::slice::ChunksExact<'_, T> {
+    pub(crate) fn rows(&self) -> std::slice::ChunksExact<'_, T> {
         self.pixels.chunks_exact(self.width)
     }
 
@@ -97,7 +97,7 @@ impl<T> Image<T> {
     /// and its distances from the left and from the upper ones, 0 to 1. Positions beyond the border are moved to it.
     #[inline]
     #[must_use]
-    pub fn around(&self, x: f64, y: f64) -> ([&T; 4], [f64; 2]) {
+    pub(crate) fn around(&self, x: f64, y: f64) -> ([&T; 4], [f64; 2]) {
         let x = x.clamp(0.0, (self.width - 1) as f64);
         let y = y.clamp(0.0, (self.height - 1) as f64);
         let (x0, y0) = (x as usize, y as usize);
@@ -122,7 +122,7 @@ impl<T: Clone> Image<T> {
     /// # Panics
     /// When they do not lie within the image, or are none.
     #[must_use]
-    pub fn crop(&self, columns: Range<usize>, rows: Range<usize>) -> Self {
+    pub(crate) fn crop(&self, columns: Range<usize>, rows: Range<usize>) -> Self {
         let size = (columns.len(), rows.len());
         Self::new(size.0, size.1, rows.flat_map(|y| &self.row(y)[columns.clone()]).cloned().collect())
     }

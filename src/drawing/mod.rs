@@ -11,7 +11,7 @@ mod shared;
 
 pub use colour::Colour;
 pub use image::{Image, Picture};
-pub use oklab::{Oklab, Oklch};
+pub(crate) use oklab::{Oklab, Oklch};
 pub use raster::Raster;
 pub use shared::Shared;
 
@@ -215,7 +215,7 @@ impl Drawing {
 
 /// The move and scale that brings `view` whole and centred into `frame`.
 #[must_use]
-pub fn fit(view: Rect, frame: Rect) -> Affine {
+pub(crate) fn fit(view: Rect, frame: Rect) -> Affine {
     let scale = (frame.width() / view.width()).min(frame.height() / view.height());
     Affine::translate(frame.center().to_vec2()) * Affine::scale(scale) * Affine::translate(-view.center().to_vec2())
 }

@@ -4,7 +4,7 @@ use super::Colour;
 
 /// A colour as OKLab has it: lightness 0 to 1, green to red, blue to yellow.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Oklab {
+pub(crate) struct Oklab {
     /// Lightness, 0 black to 1 white.
     pub l: f64,
     /// Green (negative) to red.
@@ -15,7 +15,7 @@ pub struct Oklab {
 
 /// The same in polar form.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Oklch {
+pub(crate) struct Oklch {
     /// Lightness, 0 black to 1 white.
     pub l: f64,
     /// Chroma: 0 grey; the colours of skin lie near 0.06.
@@ -74,13 +74,13 @@ impl From<Colour> for Oklch {
 impl Oklch {
     /// From lightness, chroma and hue in degrees.
     #[must_use]
-    pub const fn new(l: f64, c: f64, h: f64) -> Self {
+    pub(crate) const fn new(l: f64, c: f64, h: f64) -> Self {
         Self { l, c, h }
     }
 
     /// The nearest colour of this lightness and hue that a screen can show: chroma gives way.
     #[must_use]
-    pub fn colour(self) -> Colour {
+    pub(crate) fn colour(self) -> Colour {
         let l = self.l.clamp(0.0, 1.0);
         let mut c = self.c.max(0.0);
         let mut rgb = Oklab::from(Self { l, c, h: self.h }).linear_rgb();

@@ -30,25 +30,25 @@ impl Raster {
 
     /// The same pixels moved by `place` from where a pixel is a unit.
     #[must_use]
-    pub fn placed(self, place: Affine) -> Self {
+    pub(crate) fn placed(self, place: Affine) -> Self {
         Self { place, ..self }
     }
 
     /// The pixels.
     #[must_use]
-    pub fn picture(&self) -> &Picture {
+    pub(crate) fn picture(&self) -> &Picture {
         &self.picture
     }
 
     /// The move from pixels, whose corners are whole numbers, to the drawing.
     #[must_use]
-    pub fn place(&self) -> Affine {
+    pub(crate) fn place(&self) -> Affine {
         self.place
     }
 
     /// Its own box, a unit a pixel.
     #[must_use]
-    pub fn bounds(&self) -> Rect {
+    pub(crate) fn bounds(&self) -> Rect {
         Rect::new(0.0, 0.0, self.picture.width() as f64, self.picture.height() as f64)
     }
 }

@@ -14,7 +14,7 @@ pub struct Shared {
 impl Shared {
     /// Shares `items`.
     #[must_use]
-    pub fn new(items: Vec<Item>) -> Self {
+    pub(crate) fn new(items: Vec<Item>) -> Self {
         let fingerprint = fingerprint::of_items(&items);
         Self { items: items.into(), fingerprint }
     }
@@ -27,7 +27,7 @@ impl Shared {
 
     /// 64 bits of all that is drawn.
     #[must_use]
-    pub fn fingerprint(&self) -> u64 {
+    pub(crate) fn fingerprint(&self) -> u64 {
         self.fingerprint
     }
 }

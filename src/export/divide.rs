@@ -19,7 +19,7 @@ pub struct Share {
 impl Share {
     /// Whether nothing of the clip is to be done.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.frames.is_empty() && !self.whole_files
     }
 }

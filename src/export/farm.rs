@@ -26,11 +26,11 @@ pub enum Engine {
 
 impl Engine {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Slurm, Self::OpenJd, Self::Parallel];
+    pub(crate) const ALL: [Self; 3] = [Self::Slurm, Self::OpenJd, Self::Parallel];
 
     /// Its name on the command line.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Slurm => "slurm",
             Self::OpenJd => "openjd",

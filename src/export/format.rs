@@ -79,7 +79,7 @@ impl Format {
 
     /// Its name on the command line and in file names.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Svg => "svg",
             Self::Png => "png",
@@ -107,25 +107,25 @@ impl Format {
 
     /// Whether it is one file a frame.
     #[must_use]
-    pub const fn is_frames(self) -> bool {
+    pub(crate) const fn is_frames(self) -> bool {
         matches!(self, Self::Svg | Self::Png)
     }
 
     /// Whether it is text made of a clip's times, which a `Job` carries ready.
     #[must_use]
-    pub const fn is_text(self) -> bool {
+    pub(crate) const fn is_text(self) -> bool {
         matches!(self, Self::TextGrid | Self::Srt | Self::Vtt | Self::Poses)
     }
 
     /// Whether it is a clip's frames packed into one moving picture.
     #[must_use]
-    pub const fn is_moving(self) -> bool {
+    pub(crate) const fn is_moving(self) -> bool {
         matches!(self, Self::Mp4 | Self::Webm | Self::Gif | Self::Apng)
     }
 
     /// Whether all clips go into one file.
     #[must_use]
-    pub const fn is_of_the_lesson(self) -> bool {
+    pub(crate) const fn is_of_the_lesson(self) -> bool {
         matches!(self, Self::Html | Self::Epub)
     }
 }

@@ -10,13 +10,13 @@ pub struct FrameSet(Vec<(u32, u32)>);
 impl FrameSet {
     /// Whether every frame is meant.
     #[must_use]
-    pub fn is_all(&self) -> bool {
+    pub(crate) fn is_all(&self) -> bool {
         self.0.is_empty()
     }
 
     /// The frames of a clip of `count` that are meant, in order.
     #[must_use]
-    pub fn of(&self, count: u32) -> Vec<u32> {
+    pub(crate) fn of(&self, count: u32) -> Vec<u32> {
         if self.is_all() {
             return (0..count).collect();
         }
@@ -29,7 +29,7 @@ impl FrameSet {
 
     /// The highest frame named.
     #[must_use]
-    pub fn last(&self) -> Option<u32> {
+    pub(crate) fn last(&self) -> Option<u32> {
         self.0.iter().map(|r| r.1).max()
     }
 }
@@ -69,13 +69,13 @@ impl Shard {
 
     /// Which part, counted from 1.
     #[must_use]
-    pub const fn index(self) -> u32 {
+    pub(crate) const fn index(self) -> u32 {
         self.index
     }
 
     /// Of how many.
     #[must_use]
-    pub const fn count(self) -> u32 {
+    pub(crate) const fn count(self) -> u32 {
         self.count
     }
 }

@@ -44,7 +44,7 @@ impl Ledger {
 
     /// Whether nothing was asked for or made.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.clips.is_empty() && self.files.is_empty()
     }
 
@@ -54,7 +54,7 @@ impl Ledger {
     }
 
     /// Notes files that are there and right.
-    pub fn add(&mut self, files: impl IntoIterator<Item = Entry>) {
+    pub(crate) fn add(&mut self, files: impl IntoIterator<Item = Entry>) {
         self.files.extend(files);
     }
 
@@ -124,7 +124,7 @@ impl Ledger {
 
     /// When all is known that is asked of it: until it is closed, the draft says that files may be newer than the manifest.
     /// In a divided export what an earlier run of this part wrote for another request no longer counts as done.
-    pub fn begin(&self) {
+    pub(crate) fn begin(&self) {
         if !self.before.is_empty() {
             let _lock = self.lock();
             // Without the draft, frames of a run that is killed would be taken for changed by somebody.
@@ -137,7 +137,7 @@ impl Ledger {
     }
 
     /// Leaves a part undone: without its manifest it is known not to be.
-    pub fn give_up(self) {
+    pub(crate) fn give_up(self) {
         if self.shard != Shard::WHOLE {
             let _ = disk::remove(&self.folder.join(Manifest::name(self.shard)));
         }

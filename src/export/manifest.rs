@@ -64,7 +64,7 @@ pub struct Asked {
 impl Asked {
     /// How many frames were asked for, whatever forms they take.
     #[must_use]
-    pub fn count(&self) -> u32 {
+    pub(crate) fn count(&self) -> u32 {
         self.frames.iter().map(|(a, b)| b.saturating_sub(*a).saturating_add(1)).fold(0, u32::saturating_add)
     }
 
@@ -127,7 +127,7 @@ impl Entry {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn read(folder: &Path, path: String) -> Result<Self> {
+    pub(crate) fn read(folder: &Path, path: String) -> Result<Self> {
         let full = folder.join(&path);
         let mut file = disk::open(&full).map_err(|e| Fault::io("cannot open it", &full, e))?;
         let mut sum = Sha256::new();
@@ -193,7 +193,7 @@ impl Manifest {
     ///
     /// # Errors
     /// When it says something that is none.
-    pub fn part(&self) -> Result<Shard> {
+    pub(crate) fn part(&self) -> Result<Shard> {
         match &self.shard {
             None => Ok(Shard::WHOLE),
             Some(text) => text.parse().map_err(Fault::new),
@@ -202,7 +202,7 @@ impl Manifest {
 
     /// The entry of a path.
     #[must_use]
-    pub fn entry(&self, path: &str) -> Option<&Entry> {
+    pub(crate) fn entry(&self, path: &str) -> Option<&Entry> {
         self.files.binary_search_by(|e| e.path.as_str().cmp(path)).ok().map(|at| &self.files[at])
     }
 

@@ -20,8 +20,7 @@ pub use create::{Created, Warning, create};
 pub use find::{Anchors, Refusal};
 pub use measure::{Fitness, Measured, measure};
 pub use point::{FeaturePoint, Part};
-pub use point_row::MAX_COORDINATE;
-pub(crate) use point_row::PointRow;
+pub use point_row::{MAX_COORDINATE, PointRow};
 pub use units::{Units, to_face_frame};
 
 use crate::drawing::Colour;
@@ -177,7 +176,7 @@ impl IndexMut<FeaturePoint> for Points {
 impl Face {
     /// What is odd about where its points lie; none where they lie as those of a face in its photo do.
     #[must_use]
-    pub fn oddity(&self) -> Option<String> {
+    pub(crate) fn oddity(&self) -> Option<String> {
         use FeaturePoint as P;
         let at = |p: P| self.points[p.index()].at;
         let across = at(P::P3_5) - at(P::P3_6);
@@ -224,7 +223,7 @@ impl Face {
     /// The first outline of the hair with what a hand has moved: between two of the 25 points the rest of the
     /// outline follows in proportion to its way along it. Empty without hair.
     #[must_use]
-    pub fn hair_outline(&self) -> Vec<Point> {
+    pub(crate) fn hair_outline(&self) -> Vec<Point> {
         let Some(outline) = self.hair.front.first() else { return Vec::new() };
         let (Some(points), false) = (&self.hair.points, self.hair.vertices.is_empty()) else { return outline.clone() };
         let moves: Vec<_> = points.iter().zip(&self.hair.vertices).map(|(p, v)| (*v, p.at - outline[*v])).collect();

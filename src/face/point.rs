@@ -92,7 +92,7 @@ points! {
 
 impl FeaturePoint {
     /// Points of the model.
-    pub const COUNT: usize = 72;
+    pub(crate) const COUNT: usize = 72;
     /// Points that every face has: all but the hair's.
     pub const FIXED: usize = 47;
     /// Points round the hair.
@@ -114,7 +114,7 @@ impl FeaturePoint {
     /// # Panics
     /// When `n` is 25 or more.
     #[must_use]
-    pub const fn hair(n: usize) -> Self {
+    pub(crate) const fn hair(n: usize) -> Self {
         assert!(n < Self::HAIR, "there are 25 points of hair");
         Self((Self::FIXED + n) as u8)
     }
@@ -127,7 +127,7 @@ impl FeaturePoint {
 
     /// Its place among the points of hair; none where it is none of them.
     #[must_use]
-    pub fn hair_index(self) -> Option<usize> {
+    pub(crate) fn hair_index(self) -> Option<usize> {
         self.index().checked_sub(Self::FIXED)
     }
 
@@ -163,7 +163,7 @@ impl FeaturePoint {
 
     /// What it marks, in words.
     #[must_use]
-    pub fn meaning(self) -> &'static str {
+    pub(crate) fn meaning(self) -> &'static str {
         TABLE.get(self.index()).map_or("edge of the hair", |row| row.3)
     }
 }

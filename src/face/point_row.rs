@@ -13,7 +13,7 @@ pub const MAX_COORDINATE: f64 = 100_000.0;
 /// The value of one key of the table.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct PointRow {
+pub struct PointRow {
     x: f64,
     y: f64,
     #[serde(default = "sure")]
@@ -30,7 +30,7 @@ impl PointRow {
     ///
     /// # Errors
     /// Without a line: coordinates beyond [`MAX_COORDINATE`], or a confidence that is not from 0 to 1.
-    pub fn placed(&self, name: &str) -> Result<Placed> {
+    pub(crate) fn placed(&self, name: &str) -> Result<Placed> {
         if ![self.x, self.y].iter().all(|v| v.abs() <= MAX_COORDINATE) {
             return Err(Fault::of(FileFault::OutOfRange, format!("point {name} lies nowhere near a photo"))
                 .help("give pixels of the photo"));
@@ -43,7 +43,7 @@ impl PointRow {
     }
 
     /// The line of a point, with that many decimals of a pixel.
-    pub fn line(name: &str, point: &Placed, decimals: usize) -> String {
+    pub(crate) fn line(name: &str, point: &Placed, decimals: usize) -> String {
         let how = match point.how {
             How::Found => "found",
             How::Rule => "rule",

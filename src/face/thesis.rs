@@ -66,7 +66,7 @@ impl Set<'_> {
 
     /// A point as it was set, in pixels of the stages.
     fn at(&self, point: P) -> Point {
-        self.points[point.index()].map_or(Point::ORIGIN, |p| self.stages.from_photo(p.at))
+        self.points[point.index()].map_or(Point::ORIGIN, |p| self.stages.to_working(p.at))
     }
 
     /// Mirrors points that are set to the other side of the line between the eyeballs.
@@ -265,46 +265,4 @@ fn ears(set: &mut Set<'_>, located: &Located) {
         set.found_or(outermost, of(&outer), at(0.18, 0.23));
         set.found_or(lobe, of(&|e, p| p.1 + w >= e.bounds.y1), at(0.0, 0.77));
     }
-}
-
-/// The 25 points of hair (sec. 4.3.2 B), in pixels of the photo that was given: thirteen places along the face's outline
-/// from 2.14 over 11.2, 11.1 and 11.3 to 2.13, each moved outward until it leaves the hair's region, and twelve back
-/// along that outline. None where the eyes were not found, or a walk ends at the image's border, as it does before a
-/// dark wall.
-#[must_use]
-pub fn hair_points(stages: &Stages, points: &[Placed; P::FIXED]) -> Option<[Placed; P::HAIR]> {
-    const OUTER: usize = 13;
-    let located = stages.located.as_ref()?;
-    let basic = [P::P2_14, P::P11_2, P::P11_1, P::P11_3, P::P2_13].map(|p| stages.from_photo(points[p.index()].at));
-    let centre = located.eyes.middle();
-    let hair = &stages.refined.hair;
-    let along = |share: f64| {
-        let lengths = [0, 1, 2, 3].map(|i: usize| basic[i].distance(basic[i + 1]).max(1e-9));
-        let mut left = share * lengths.iter().sum::<f64>();
-        for (i, length) in lengths.iter().enumerate() {
-            if left <= *length || i == 3 {
-                return basic[i].lerp(basic[i + 1], (left / length).min(1.0));
-            }
-            left -= length;
-        }
-        basic[4]
-    };
-    let mut found = Vec::with_capacity(P::HAIR);
-    for i in 0..OUTER {
-        let start = along(i as f64 / (OUTER - 1) as f64);
-        let out = (start - centre).normalize();
-        let walk = (0..hair.width() + hair.height()).map(|k| start + out * k as f64);
-        let end = walk.into_iter().find(|p| !hair.is_set(p.x.round() as isize, p.y.round() as isize))?;
-        let within = |v: f64, side: usize| v >= 1.0 && v <= side as f64 - 2.0;
-        if !within(end.x, hair.width()) || !within(end.y, hair.height()) {
-            return None;
-        }
-        found.push(Placed { at: stages.to_photo(end), confidence: FOUND, how: How::Found });
-    }
-    let back = P::HAIR - OUTER;
-    for i in 0..back {
-        let at = stages.to_photo(along(1.0 - (i as f64 + 0.5) / back as f64));
-        found.push(Placed { at, confidence: RULE, how: How::Rule });
-    }
-    found.try_into().ok()
 }

@@ -10,7 +10,7 @@ use crate::drawing::{Colour, Group, Item, fit};
 use crate::geometry::{Affine, BezPath, Point, Rect, Shape};
 
 /// The longest text of a layer that is read; drawings by hand are far below.
-pub const MAX_LAYER_BYTES: u64 = 8 << 20;
+pub(crate) const MAX_LAYER_BYTES: u64 = 8 << 20;
 /// The most shapes of a layer: each one costs time in every frame.
 const MAX_SHAPES: usize = 5_000;
 /// The most dashes of all strokes.
@@ -24,7 +24,7 @@ const TOLERANCE: f64 = 0.05;
 
 /// An author's own layer, in its own coordinates.
 #[derive(Debug, Clone, PartialEq)]
-pub struct AuthorLayer {
+pub(crate) struct AuthorLayer {
     /// Where it is drawn.
     pub place: LayerPlace,
     /// The part of its plane that covers the figure's view.
@@ -54,7 +54,7 @@ impl AuthorLayer {
     ///
     /// # Errors
     /// When it is not SVG, or has more shapes, dashes or segments than a frame can bear.
-    pub fn parse(text: &str, place: LayerPlace) -> Result<Self> {
+    pub(crate) fn parse(text: &str, place: LayerPlace) -> Result<Self> {
         check(text)?;
         // Pictures are not looked at: neither files nor data inside the text.
         let options = usvg::Options {
@@ -93,7 +93,7 @@ impl AuthorLayer {
 
     /// The layer as things of a cartoon that fills `view`.
     #[must_use]
-    pub fn extra(&self, view: Rect) -> Extra {
+    pub(crate) fn extra(&self, view: Rect) -> Extra {
         let sheet = match self.place {
             LayerPlace::Behind => Sheet::Ground,
             LayerPlace::Body => Sheet::Shirt,

@@ -7,9 +7,10 @@
 mod author_layer;
 mod layer_bounds;
 pub mod cartoon;
-pub mod line;
+pub(crate) mod line;
 
-pub use author_layer::{AuthorLayer, LayerPlace, MAX_LAYER_BYTES};
+pub use author_layer::LayerPlace;
+pub(crate) use author_layer::{AuthorLayer, MAX_LAYER_BYTES};
 pub use cartoon::Cartoon;
 pub use line::{LineFigure, Widths};
 
@@ -48,19 +49,10 @@ impl Figure {
 
     /// What the figure is called.
     #[must_use]
-    pub fn title(&self) -> &str {
+    pub(crate) fn title(&self) -> &str {
         match self {
             Self::Line(figure) => figure.title(),
             Self::Cartoon(figure) => figure.title(),
-        }
-    }
-
-    /// The part of its plane that it fills.
-    #[must_use]
-    pub fn view(&self) -> Rect {
-        match self {
-            Self::Line(figure) => figure.view(),
-            Self::Cartoon(figure) => figure.view(),
         }
     }
 
@@ -75,7 +67,7 @@ impl Figure {
 
     /// The figure as small pictures need it: the face without what is round it, its lines `bolder` times as wide.
     #[must_use]
-    pub fn close_up(&self, bolder: f64) -> Self {
+    pub(crate) fn close_up(&self, bolder: f64) -> Self {
         match self {
             Self::Line(figure) => Self::Line(Box::new(figure.close_up(bolder))),
             Self::Cartoon(figure) => Self::Cartoon(Box::new(figure.close_up(bolder))),

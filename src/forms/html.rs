@@ -52,7 +52,7 @@ pub(crate) struct Page {
 
 impl Page {
     /// Takes a clip in.
-    pub fn add(&mut self, clip: &Shown<'_>) {
+    pub(crate) fn add(&mut self, clip: &Shown<'_>) {
         let number = self.clips.len();
         if number == 0 {
             self.size = clip.parts.grid.size;
@@ -87,7 +87,7 @@ impl Page {
     }
 
     /// The page.
-    pub fn done(self, title: &str) -> String {
+    pub(crate) fn done(self, title: &str) -> String {
         let tabs: String = self
             .names
             .iter()

@@ -35,7 +35,7 @@ mod zip;
 
 pub use fault::FormFault;
 pub(crate) use rounded::rounded;
-pub use stream::{Frames, Outcome, Rate, Watch};
+pub use stream::{Frames, Outcome, Watch};
 
 use std::path::{Path, PathBuf};
 

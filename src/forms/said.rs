@@ -43,7 +43,7 @@ pub(crate) struct Piece {
 
 impl Phrase {
     /// All that is written, on one line.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let all: String = self.pieces.iter().map(|p| format!("{}{}{}", p.before, p.text, p.after)).collect();
         all.trim().to_owned()
     }

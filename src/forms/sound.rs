@@ -28,7 +28,7 @@ pub(crate) struct Encoded {
 
 impl Encoded {
     /// Whether every reader of books plays it.
-    pub fn is_for_books(&self) -> bool {
+    pub(crate) fn is_for_books(&self) -> bool {
         matches!(self.extension, "mp3" | "m4a")
     }
 }

@@ -53,7 +53,7 @@ pub enum Outcome {
 /// Frames a second as a fraction: `over.0 / over.1`, each at most 65,535, the nearest there is. 29.97 is 30000/1001 and
 /// 23.976 is 24000/1001, as television has them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rate {
+pub(crate) struct Rate {
     /// Frames …
     pub frames: u32,
     /// … in this many seconds.
@@ -65,7 +65,7 @@ impl Rate {
     ///
     /// # Errors
     /// When it is not above 0 and at most 1000.
-    pub fn new(fps: f64) -> Result<Self> {
+    pub(crate) fn new(fps: f64) -> Result<Self> {
         if !(fps > 0.0 && fps <= 1000.0) {
             return Err(Fault::of(FileFault::OutOfRange, format!("{fps} frames a second cannot be"))
                 .help("give a number from 1 to 240"));
@@ -97,7 +97,7 @@ impl Rate {
 
     /// When frame `n` begins, in seconds.
     #[must_use]
-    pub fn time_of(self, n: u32) -> f64 {
+    pub(crate) fn time_of(self, n: u32) -> f64 {
         f64::from(n) * f64::from(self.seconds) / f64::from(self.frames)
     }
 

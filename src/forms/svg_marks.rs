@@ -21,12 +21,12 @@ pub(crate) struct Defs {
 
 impl Defs {
     /// Definitions of a picture in which colours are classes: it is smaller by some, but not what drawing programs like.
-    pub fn with_classes() -> Self {
+    pub(crate) fn with_classes() -> Self {
         Self { classes: Some(Vec::new()), ..Self::default() }
     }
 
     /// The style of the classes.
-    pub fn style(&self) -> String {
+    pub(crate) fn style(&self) -> String {
         let mut text = String::new();
         for (number, colour) in self.classes.iter().flatten().enumerate() {
             let _ = write!(text, ".{}{{fill:{}", short_name(number as u32), short(*colour));

@@ -14,7 +14,7 @@ pub(crate) struct Archive {
 
 impl Archive {
     /// Adds a file as it is, or deflated where that is shorter.
-    pub fn add(&mut self, name: &str, file: &[u8], deflated: bool) {
+    pub(crate) fn add(&mut self, name: &str, file: &[u8], deflated: bool) {
         let packed = deflated.then(|| miniz_oxide::deflate::compress_to_vec(file, 9)).filter(|p| p.len() < file.len());
         let (method, data): (u16, &[u8]) = packed.as_deref().map_or((0, file), |p| (8, p));
         let place = self.bytes.len() as u32;
@@ -42,7 +42,7 @@ impl Archive {
     }
 
     /// The archive.
-    pub fn done(mut self) -> Vec<u8> {
+    pub(crate) fn done(mut self) -> Vec<u8> {
         let (place, length) = (self.bytes.len() as u32, self.directory.len() as u32);
         self.bytes.append(&mut self.directory);
         self.bytes.extend(b"PK\x05\x06\0\0\0\0");

@@ -26,7 +26,7 @@ const STEP: f64 = 5.0;
 /// assert!((ink.bounding_box().height() - 4.0).abs() < 0.01);
 /// ```
 #[must_use]
-pub fn brush(line: &[Point], width: f64, profile: &[f64]) -> BezPath {
+pub(crate) fn brush(line: &[Point], width: f64, profile: &[f64]) -> BezPath {
     let length: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
     // What the profile says must be met too: two steps for each of its values.
     let wanted = ((length / STEP) as usize).max(2 * profile.len().saturating_sub(1) + 1);
@@ -35,7 +35,7 @@ pub fn brush(line: &[Point], width: f64, profile: &[f64]) -> BezPath {
 
 /// [`brush`] with `steps` points along the line, at least two.
 #[must_use]
-pub fn brush_in_steps(line: &[Point], width: f64, profile: &[f64], steps: usize) -> BezPath {
+pub(crate) fn brush_in_steps(line: &[Point], width: f64, profile: &[f64], steps: usize) -> BezPath {
     let mut path = BezPath::new();
     let steps = steps.max(2);
     let dense = spline_points(line, 2 * steps);
@@ -65,7 +65,7 @@ pub fn brush_in_steps(line: &[Point], width: f64, profile: &[f64], steps: usize)
 /// outlines of straight pieces that wind against each other. The points are meant to be close: with steps of 3 on a
 /// bend of radius 20 the pieces are 0.06 off it.
 #[must_use]
-pub fn brush_ring(line: &[Point], width: impl Fn(Vec2) -> f64) -> BezPath {
+pub(crate) fn brush_ring(line: &[Point], width: impl Fn(Vec2) -> f64) -> BezPath {
     let n = line.len();
     let mut path = BezPath::new();
     if n < 3 {

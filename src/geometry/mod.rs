@@ -12,11 +12,9 @@ mod ribbon;
 mod similarity;
 mod spline;
 
-pub use brush::{brush, brush_in_steps, brush_ring};
-pub use kurbo::{
-    Affine, BezPath, Circle, CubicBez, Ellipse, ParamCurve, ParamCurveDeriv, ParamCurveNearest, PathEl, Point, Rect,
-    Shape, Vec2,
-};
+pub(crate) use brush::{brush, brush_in_steps, brush_ring};
+pub use kurbo::{Affine, BezPath, Circle, CubicBez, ParamCurve, ParamCurveNearest, PathEl, Point, Rect, Shape, Vec2};
+pub(crate) use kurbo::{Ellipse, ParamCurveDeriv};
 pub use outline::outline;
 pub use pieces::outline_in_pieces;
 pub use polygon::{cut_corner, cut_corners, simplify};
@@ -27,7 +25,7 @@ pub use spline::{equal_steps, flattened, spline};
 /// Calls `each` for every element of a path in order, with the number of its kind (move 1, line 2, quadratic 3, cubic 4,
 /// close 5) and its points: for sums that tell paths apart.
 #[inline]
-pub fn each_element(path: &BezPath, mut each: impl FnMut(u64, &[Point])) {
+pub(crate) fn each_element(path: &BezPath, mut each: impl FnMut(u64, &[Point])) {
     for element in path.elements() {
         match *element {
             PathEl::MoveTo(a) => each(1, &[a]),
@@ -41,19 +39,19 @@ pub fn each_element(path: &BezPath, mut each: impl FnMut(u64, &[Point])) {
 
 /// The cubic that leaves `a` with derivative `da` and reaches `b` with derivative `db` over a unit of parameter.
 #[must_use]
-pub fn hermite(a: Point, da: Vec2, b: Point, db: Vec2) -> CubicBez {
+pub(crate) fn hermite(a: Point, da: Vec2, b: Point, db: Vec2) -> CubicBez {
     CubicBez::new(a, a + da / 3.0, b - db / 3.0, b)
 }
 
 /// `a` at t = 0, `b` at t = 1.
 #[must_use]
-pub fn lerp(a: f64, b: f64, t: f64) -> f64 {
+pub(crate) fn lerp(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t
 }
 
 /// The outline of a line of even width with round joints and ends.
 #[must_use]
-pub fn stroke_outline(path: &BezPath, width: f64) -> BezPath {
+pub(crate) fn stroke_outline(path: &BezPath, width: f64) -> BezPath {
     let style = kurbo::Stroke::new(width).with_caps(kurbo::Cap::Round).with_join(kurbo::Join::Round);
     kurbo::stroke(path.iter(), &style, &kurbo::StrokeOpts::default(), 0.05)
 }

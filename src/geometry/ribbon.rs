@@ -38,23 +38,16 @@ pub struct Ribbon(pub [Knot; 4]);
 impl Ribbon {
     /// The centre line.
     #[must_use]
-    pub fn centre(&self) -> kurbo::CubicBez {
+    pub(crate) fn centre(&self) -> kurbo::CubicBez {
         let [a, b, c, d] = self.0.map(Knot::point);
         kurbo::CubicBez::new(a, b, c, d)
-    }
-
-    /// The stroke drawn the other way.
-    #[must_use]
-    pub fn reversed(&self) -> Self {
-        let [a, b, c, d] = self.0;
-        Self([d, c, b, a])
     }
 
     /// The stroke in the paper's own reading of widths, by "interpolation of the adjacent control points": from one
     /// control point's width straight to the next one's, each in a third of the parameter, so that the inner widths
     /// are reached. The three parts are one stroke when they are drawn as a chain.
     #[must_use]
-    pub fn as_in_paper(&self) -> [Self; 3] {
+    pub(crate) fn as_in_paper(&self) -> [Self; 3] {
         let centre = self.centre();
         std::array::from_fn(|i| {
             let c = kurbo::ParamCurve::subsegment(&centre, i as f64 / 3.0..(i + 1) as f64 / 3.0);

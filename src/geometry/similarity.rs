@@ -16,9 +16,6 @@ pub struct Similarity {
 }
 
 impl Similarity {
-    /// Leaves every point where it is.
-    pub const IDENTITY: Self = Self { a: 1.0, b: 0.0, origin: Point::ORIGIN };
-
     /// Scales by `scale` and turns by `angle` radians, clockwise as seen, and takes the origin to `origin`.
     #[must_use]
     pub fn new(origin: Point, scale: f64, angle: f64) -> Self {

@@ -11,6 +11,6 @@ mod sound;
 mod video;
 
 pub use fault::MediaFault;
-pub(crate) use sound::decimated;
-pub use sound::{Resampled, Sound, write_wav};
+pub use sound::Sound;
+pub(crate) use sound::{decimated, write_wav};
 pub use video::{Ffmpeg, Frame, Frames, Scan, Source, Y4m, sound_of};

@@ -43,7 +43,7 @@ impl Cheeks {
     /// added, since faces are symmetric; the boundary is the local minimum nearest d from the middle. Where there is
     /// none, it is where the projection falls fastest.
     #[must_use]
-    pub fn of(face: &Mask, eyes: &Eyeballs, square: &Bounds) -> Self {
+    pub(crate) fn of(face: &Mask, eyes: &Eyeballs, square: &Bounds) -> Self {
         let (d, middle) = (eyes.distance(), eyes.middle());
         let reach = (1.6 * d) as usize + 1;
         let mut projection = vec![0_u32; reach];

@@ -18,7 +18,7 @@ impl Cut {
     /// Tries the columns within an eighth of the region's width from its middle; half its width w (eq. 3.14) is
     /// compared to each side. Of equal columns the one nearest the middle wins.
     #[must_use]
-    pub fn of(intensity: &Plane, region: &Bounds) -> Self {
+    pub(crate) fn of(intensity: &Plane, region: &Bounds) -> Self {
         let middle = (region.x0 + region.x1 - 1) / 2;
         // Eq. 3.14: (x − x1)/2 + (x2 − x)/2, the same for every x.
         let half = (region.width() / 2).max(1);

@@ -35,7 +35,7 @@ pub struct Divisions {
 impl Divisions {
     /// The lines of a pair of eyeballs (sec. 3.4.2, step 3).
     #[must_use]
-    pub fn of(eyes: &Eyeballs) -> Self {
+    pub(crate) fn of(eyes: &Eyeballs) -> Self {
         Self {
             brow_eye: eyes.left.centre.y - eyes.left.height() / 2.0 - 1.0,
             eye_nose: eyes.middle().y + eyes.distance() / 3.0,
@@ -45,7 +45,7 @@ impl Divisions {
 
     /// The four parts of the square from the top; each keeps at least a row of the image.
     #[must_use]
-    pub fn parts(&self, square: &Bounds) -> [Bounds; 4] {
+    pub(crate) fn parts(&self, square: &Bounds) -> [Bounds; 4] {
         let row = |y: f64| (y.ceil().max(0.0) as usize).clamp(square.y0, square.y1);
         let lines = [square.y0, row(self.brow_eye), row(self.eye_nose), row(self.nose_mouth), square.y1];
         std::array::from_fn(|i| {
@@ -58,7 +58,7 @@ impl Divisions {
 /// The strength of edges: the sum of both directions' absolute differences (thesis eq. 3.13, fig. 3.12), in the unit
 /// of the plane. The outermost pixels' values go on beyond the border.
 #[must_use]
-pub fn sobel(plane: &Plane) -> Plane {
+pub(crate) fn sobel(plane: &Plane) -> Plane {
     let (width, height) = (plane.width(), plane.height());
     let mut values = Vec::with_capacity(width * height);
     for y in 0..height {
@@ -76,7 +76,7 @@ pub fn sobel(plane: &Plane) -> Plane {
 impl Edges {
     /// The edges of an intensity image round a pair of eyeballs.
     #[must_use]
-    pub fn of(intensity: &Plane, eyes: &Eyeballs) -> Self {
+    pub(crate) fn of(intensity: &Plane, eyes: &Eyeballs) -> Self {
         let sobel = sobel(intensity);
         let square = eyes.square(intensity.width(), intensity.height());
         let divisions = Divisions::of(eyes);

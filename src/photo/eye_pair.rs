@@ -44,7 +44,7 @@ impl EyePairs {
     /// Pairs dark regions by Chan's rules and orders them by eq. 3.5. The rules are those of the sources' page; the
     /// thesis does not print them.
     #[must_use]
-    pub fn of(light: &Mask) -> Self {
+    pub(crate) fn of(light: &Mask) -> Self {
         let dark = Regions::of(&light.not(), Neighbours::Four);
         let (width, height) = (dark.labels.width() as f64, dark.labels.height() as f64);
         let candidates: Vec<Region> = dark
@@ -90,7 +90,7 @@ impl EyePairs {
 
     /// The pair with the largest score.
     #[must_use]
-    pub fn best(&self) -> Option<&EyePair> {
+    pub(crate) fn best(&self) -> Option<&EyePair> {
         self.pairs.first()
     }
 }

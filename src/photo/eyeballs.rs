@@ -24,14 +24,14 @@ pub struct Eyeballs {
 impl Eyeball {
     /// Eyeball.height: the circle's.
     #[must_use]
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         2.0 * self.radius
     }
 
     /// The circle that holds the most pixels of an eye's region. It is as high as the region; where several places
     /// hold as many, their middle is taken.
     #[must_use]
-    pub fn of(dark: &Regions, region: &Region) -> Self {
+    pub(crate) fn of(dark: &Regions, region: &Region) -> Self {
         let b = region.bounds;
         let radius = b.height() as f64 / 2.0;
         // How many pixels of the region lie left of each column, row by row.
@@ -77,7 +77,7 @@ impl Eyeball {
 impl Eyeballs {
     /// The eyeballs of a pair of regions.
     #[must_use]
-    pub fn of(dark: &Regions, pair: &EyePair) -> Self {
+    pub(crate) fn of(dark: &Regions, pair: &EyePair) -> Self {
         Self { left: Eyeball::of(dark, &pair.left), right: Eyeball::of(dark, &pair.right) }
     }
 
@@ -91,13 +91,13 @@ impl Eyeballs {
 
     /// EyeMid: the middle between them.
     #[must_use]
-    pub fn middle(&self) -> Point {
+    pub(crate) fn middle(&self) -> Point {
         self.left.centre.midpoint(self.right.centre)
     }
 
     /// d: the distance between them.
     #[must_use]
-    pub fn distance(&self) -> f64 {
+    pub(crate) fn distance(&self) -> f64 {
         self.left.centre.distance(self.right.centre)
     }
 
@@ -111,7 +111,7 @@ impl Eyeballs {
 
     /// The point on the other side of the line that runs upright between the eyeballs.
     #[must_use]
-    pub fn mirror(&self, p: Point) -> Point {
+    pub(crate) fn mirror(&self, p: Point) -> Point {
         let across = self.right.centre - self.left.centre;
         let length = across.hypot2();
         if length < 1e-12 {

@@ -45,7 +45,7 @@ impl Grey {
     /// # Panics
     /// When a side is 1.
     #[must_use]
-    pub fn halved(&self) -> Self {
+    pub(crate) fn halved(&self) -> Self {
         let (width, height) = (self.width() / 2, self.height() / 2);
         let mut pixels = Vec::with_capacity(width * height);
         for y in 0..height {

@@ -17,7 +17,7 @@ pub struct Hsi {
 impl Hsi {
     /// The channels of a photo.
     #[must_use]
-    pub fn of(photo: &Photo) -> Self {
+    pub(crate) fn of(photo: &Photo) -> Self {
         let plane = |of: &dyn Fn([u8; 3]) -> f32| photo.map(|p| of(*p));
         let sum = |p: [u8; 3]| f32::from(u16::from(p[0]) + u16::from(p[1]) + u16::from(p[2]));
         Self {

@@ -23,7 +23,7 @@ impl Bounds {
     /// The pixels whose centres lie from (`x0`, `y0`) to (`x1`, `y1`) of an image; never none: where nothing of the
     /// image lies between, the nearest pixels.
     #[must_use]
-    pub fn between(from: Point, to: Point, width: usize, height: usize) -> Self {
+    pub(crate) fn between(from: Point, to: Point, width: usize, height: usize) -> Self {
         let first = |v: f64, side: usize| (v.ceil().max(0.0) as usize).min(side - 1);
         let past = |v: f64, side: usize, first: usize| ((v.floor() + 1.0).max(0.0) as usize).clamp(first + 1, side);
         let (x0, y0) = (first(from.x, width), first(from.y, height));
@@ -32,48 +32,48 @@ impl Bounds {
 
     /// All of an image.
     #[must_use]
-    pub fn whole(width: usize, height: usize) -> Self {
+    pub(crate) fn whole(width: usize, height: usize) -> Self {
         Self { x0: 0, y0: 0, x1: width, y1: height }
     }
 
     /// Columns.
     #[must_use]
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         self.x1 - self.x0
     }
 
     /// Rows.
     #[must_use]
-    pub fn height(&self) -> usize {
+    pub(crate) fn height(&self) -> usize {
         self.y1 - self.y0
     }
 
     /// Width times height.
     #[must_use]
-    pub fn area(&self) -> usize {
+    pub(crate) fn area(&self) -> usize {
         self.width() * self.height()
     }
 
     /// The middle, where the centres of pixels are whole numbers.
     #[must_use]
-    pub fn centre(&self) -> Point {
+    pub(crate) fn centre(&self) -> Point {
         Point::new((self.x0 + self.x1 - 1) as f64 / 2.0, (self.y0 + self.y1 - 1) as f64 / 2.0)
     }
 
     /// Whether a pixel lies in it.
     #[must_use]
-    pub fn holds(&self, x: usize, y: usize) -> bool {
+    pub(crate) fn holds(&self, x: usize, y: usize) -> bool {
         (self.x0..self.x1).contains(&x) && (self.y0..self.y1).contains(&y)
     }
 
     /// Its pixels, row by row.
-    pub fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
+    pub(crate) fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
         (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| (x, y)))
     }
 
     /// What two boxes share; none where they are apart.
     #[must_use]
-    pub fn shared(&self, other: &Self) -> Option<Self> {
+    pub(crate) fn shared(&self, other: &Self) -> Option<Self> {
         let (x0, y0) = (self.x0.max(other.x0), self.y0.max(other.y0));
         let (x1, y1) = (self.x1.min(other.x1), self.y1.min(other.y1));
         (x0 < x1 && y0 < y1).then_some(Self { x0, y0, x1, y1 })
@@ -89,18 +89,18 @@ impl Bounds {
 impl Mask {
     /// Whether a pixel is set; outside none is.
     #[must_use]
-    pub fn is_set(&self, x: isize, y: isize) -> bool {
+    pub(crate) fn is_set(&self, x: isize, y: isize) -> bool {
         x >= 0 && y >= 0 && self.get(x as usize, y as usize) == Some(&true)
     }
 
     /// Pixels that are set.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.pixels().iter().filter(|b| **b).count()
     }
 
     /// The indices of the pixels that are set, row by row.
-    pub fn indices(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn indices(&self) -> impl Iterator<Item = usize> {
         self.pixels().iter().enumerate().filter(|(_, set)| **set).map(|(i, _)| i)
     }
 
@@ -109,7 +109,7 @@ impl Mask {
     /// # Panics
     /// When the sizes differ.
     #[must_use]
-    pub fn and(&self, other: &Self) -> Self {
+    pub(crate) fn and(&self, other: &Self) -> Self {
         self.with(other, |a, b| *a && *b)
     }
 
@@ -118,7 +118,7 @@ impl Mask {
     /// # Panics
     /// When the sizes differ.
     #[must_use]
-    pub fn or(&self, other: &Self) -> Self {
+    pub(crate) fn or(&self, other: &Self) -> Self {
         self.with(other, |a, b| *a || *b)
     }
 
@@ -127,13 +127,13 @@ impl Mask {
     /// # Panics
     /// When the sizes differ.
     #[must_use]
-    pub fn without(&self, other: &Self) -> Self {
+    pub(crate) fn without(&self, other: &Self) -> Self {
         self.with(other, |a, b| *a && !*b)
     }
 
     /// The pixels not set.
     #[must_use]
-    pub fn not(&self) -> Self {
+    pub(crate) fn not(&self) -> Self {
         self.map(|b| !b)
     }
 }

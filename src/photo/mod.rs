@@ -27,7 +27,7 @@ mod write;
 
 pub use cheeks::{Cheeks, Ear};
 pub use cuts::Cut;
-pub use edges::{Divisions, Edges, sobel};
+pub use edges::{Divisions, Edges};
 pub use eye_pair::{EyePair, EyePairs};
 pub use eyeballs::{Eyeball, Eyeballs};
 pub use grey::Grey;
@@ -42,9 +42,9 @@ pub use ranges::{Feature, Features};
 pub use read::{MAX_PHOTO_BYTES, sha256};
 pub use refine::Refined;
 pub use regions::{Neighbours, Region, Regions};
-pub use stages::{Located, STAGES_SIDE, Stages};
-pub use strip::without_metadata;
-pub use threshold::{FaceGround, LightDark, mean_deviation, moment_preserving};
+pub use stages::{Located, Stages};
+pub(crate) use strip::without_metadata;
+pub use threshold::{FaceGround, LightDark};
 pub use write::to_clean_png;
 
 use crate::drawing::{Colour, Image};

@@ -6,7 +6,7 @@ impl Mask {
     /// Every pixel at most `radius` pixels from a set one; for a negative radius every pixel farther than that from all
     /// that are not set. Beyond the border nothing is set or unset.
     #[must_use]
-    pub fn grown(&self, radius: f64) -> Self {
+    pub(crate) fn grown(&self, radius: f64) -> Self {
         let mut out = Self::filled(self.width(), self.height(), false);
         let grows = radius >= 0.0;
         let margin = if grows { radius.ceil() as usize } else { 1 };
@@ -21,20 +21,20 @@ impl Mask {
 
     /// Without all parts narrower than twice `radius` pixels.
     #[must_use]
-    pub fn opened(&self, radius: f64) -> Self {
+    pub(crate) fn opened(&self, radius: f64) -> Self {
         self.grown(-radius).grown(radius)
     }
 
     /// With all gaps filled that are narrower than twice `radius` pixels. Beyond the border nothing is known, so the
     /// border is no gap.
     #[must_use]
-    pub fn closed(&self, radius: f64) -> Self {
+    pub(crate) fn closed(&self, radius: f64) -> Self {
         self.grown(radius).grown(-radius).or(self)
     }
 
     /// The squared distance of every pixel to the nearest set one, in pixels; infinite where none is set.
     #[must_use]
-    pub fn squared_distances(&self) -> Plane {
+    pub(crate) fn squared_distances(&self) -> Plane {
         let (width, height) = (self.width(), self.height());
         let all = Bounds::whole(width, height);
         Plane::new(width, height, distances_within(&all, |x, y| self[(x, y)]))

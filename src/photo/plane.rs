@@ -57,7 +57,7 @@ impl Plane {
 
     /// The means over squares of `2 radius + 1` pixels, cut at the border.
     #[must_use]
-    pub fn boxed(&self, radius: usize) -> Self {
+    pub(crate) fn boxed(&self, radius: usize) -> Self {
         let (width, height) = (self.width(), self.height());
         let mut across = Self::filled(width, height, 0.0);
         for (y, row) in self.rows().enumerate() {

@@ -31,7 +31,7 @@ impl Features {
     /// Grows regions of edges from the search ranges. None leaves its part of the square; nose and mouth stay between
     /// the middles of the eyeballs.
     #[must_use]
-    pub fn of(edges: &Edges, eyes: &Eyeballs) -> Self {
+    pub(crate) fn of(edges: &Edges, eyes: &Eyeballs) -> Self {
         let (width, height) = (edges.binary.width(), edges.binary.height());
         let [brows, eye_part, nose_part, mouth_part] = edges.divisions.parts(&edges.square);
         let between = |from: Point, to: Point| Bounds::between(from, to, width, height);

@@ -17,7 +17,7 @@ pub struct Refined {
 impl Refined {
     /// From B₁ (set where light) and B₂ (set where not face).
     #[must_use]
-    pub fn of(light: &Mask, ground: &Mask) -> Self {
+    pub(crate) fn of(light: &Mask, ground: &Mask) -> Self {
         let backgrounds = Regions::of(ground, Neighbours::Four);
         let enclosed = backgrounds.mask_of(|r| !backgrounds.at_border(r));
         let face = enclosed.with(ground, |enclosed, ground| *enclosed || !ground);

@@ -35,7 +35,7 @@ pub struct Regions {
 impl Regions {
     /// The regions of the set pixels of a mask.
     #[must_use]
-    pub fn of(mask: &Mask, neighbours: Neighbours) -> Self {
+    pub(crate) fn of(mask: &Mask, neighbours: Neighbours) -> Self {
         let (width, height) = (mask.width(), mask.height());
         let bits = mask.pixels();
         let mut labels = vec![0_u32; bits.len()];
@@ -77,20 +77,20 @@ impl Regions {
 
     /// Whether a region touches the image's border.
     #[must_use]
-    pub fn at_border(&self, region: &Region) -> bool {
+    pub(crate) fn at_border(&self, region: &Region) -> bool {
         let b = region.bounds;
         b.x0 == 0 || b.y0 == 0 || b.x1 == self.labels.width() || b.y1 == self.labels.height()
     }
 
     /// The pixels of the regions that `pick` says yes to.
     #[must_use]
-    pub fn mask_of(&self, pick: impl Fn(&Region) -> bool) -> Mask {
+    pub(crate) fn mask_of(&self, pick: impl Fn(&Region) -> bool) -> Mask {
         let picked: Vec<bool> = std::iter::once(false).chain(self.list.iter().map(pick)).collect();
         self.labels.map(|l| picked[*l as usize])
     }
 
     /// The pixels of one region, row by row.
-    pub fn pixels_of(&self, region: &Region) -> impl Iterator<Item = (usize, usize)> + use<'_> {
+    pub(crate) fn pixels_of(&self, region: &Region) -> impl Iterator<Item = (usize, usize)> + use<'_> {
         let (b, label) = (region.bounds, region.label);
         (b.y0..b.y1)
             .flat_map(move |y| (b.x0..b.x1).map(move |x| (x, y)))

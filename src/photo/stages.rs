@@ -6,7 +6,7 @@ use super::{
 use crate::geometry::Point;
 
 /// The longest side that is worked on. Faces of passport photos are some 200 pixels wide in it, as the thesis's were.
-pub const STAGES_SIDE: usize = 600;
+pub(crate) const STAGES_SIDE: usize = 600;
 
 /// Eyes nearer to each other, in pixels of the stages, leave no square to look in.
 const LEAST_DISTANCE: f64 = 4.0;
@@ -15,7 +15,7 @@ const LEAST_DISTANCE: f64 = 4.0;
 /// pixel centres are whole numbers; [`Stages::to_photo`] brings them back.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stages {
-    /// The photo as it was worked on, at most [`STAGES_SIDE`] wide and high.
+    /// The photo as it was worked on, at most `STAGES_SIDE` wide and high.
     pub photo: Photo,
     /// How many pixels of the given photo make one of that.
     pub factor: f64,
@@ -71,7 +71,7 @@ impl Stages {
     /// The same stages with other eyes; see [`Stages::with_eyes`].
     #[must_use]
     pub fn seen_from(self, left: Point, right: Point) -> Self {
-        let eyes = Eyeballs::at(self.from_photo(left), self.from_photo(right));
+        let eyes = Eyeballs::at(self.to_working(left), self.to_working(right));
         self.located_at(Some(eyes))
     }
 
@@ -103,7 +103,7 @@ impl Stages {
 
     /// A place of the photo that was given in pixels of the stages.
     #[must_use]
-    pub fn from_photo(&self, p: Point) -> Point {
+    pub(crate) fn to_working(&self, p: Point) -> Point {
         Point::new((p.x + 0.5) / self.factor - 0.5, (p.y + 0.5) / self.factor - 0.5)
     }
 }
@@ -176,6 +176,6 @@ mod tests {
         let corner = stages.to_photo(Point::new(-0.5, -0.5));
         assert!(corner.distance(Point::new(-0.5, -0.5)) < 1e-12);
         let p = Point::new(700.25, 31.5);
-        assert!(stages.to_photo(stages.from_photo(p)).distance(p) < 1e-9);
+        assert!(stages.to_photo(stages.to_working(p)).distance(p) < 1e-9);
     }
 }

@@ -3,7 +3,7 @@
 /// The bytes of a JPEG or PNG without its metadata, its pixels untouched. None where that cannot be had by leaving
 /// parts out: another format, a damaged file, or a photo that its metadata turns upright.
 #[must_use]
-pub fn without_metadata(bytes: &[u8]) -> Option<Vec<u8>> {
+pub(crate) fn without_metadata(bytes: &[u8]) -> Option<Vec<u8>> {
     if bytes.starts_with(PNG) { png(bytes) } else { jpeg(bytes) }
 }
 

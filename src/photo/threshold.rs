@@ -30,7 +30,7 @@ pub struct FaceGround {
 
 /// The mean of a plane within a box and its standard deviation over n − 1; the deviation of one pixel is 0.
 #[must_use]
-pub fn mean_deviation(plane: &Plane, within: &Bounds) -> (f64, f64) {
+pub(crate) fn mean_deviation(plane: &Plane, within: &Bounds) -> (f64, f64) {
     let rows = || (within.y0..within.y1).map(|y| &plane.row(y)[within.x0..within.x1]);
     let count = within.area() as f64;
     let mean = rows().flatten().map(|v| f64::from(*v)).sum::<f64>() / count;
@@ -41,7 +41,7 @@ pub fn mean_deviation(plane: &Plane, within: &Bounds) -> (f64, f64) {
 impl LightDark {
     /// Splits intensity at one deviation below the mean of the central rectangle (thesis eqs. 3.1 to 3.4).
     #[must_use]
-    pub fn of(intensity: &Plane, central: &Bounds) -> Self {
+    pub(crate) fn of(intensity: &Plane, central: &Bounds) -> Self {
         let (mean, deviation) = mean_deviation(intensity, central);
         let threshold = mean - deviation;
         Self { mean, deviation, threshold, light: intensity.map(|v| f64::from(*v) > threshold) }
@@ -52,7 +52,7 @@ impl FaceGround {
     /// Keeps as face what is light and whose hue is within one deviation of the central rectangle's (thesis eqs. 3.6
     /// to 3.9). Dark pixels of that hue, for which eq. 3.9 has no case, are not face.
     #[must_use]
-    pub fn of(hue: &Plane, light: &Mask, central: &Bounds) -> Self {
+    pub(crate) fn of(hue: &Plane, light: &Mask, central: &Bounds) -> Self {
         let (mean, deviation) = mean_deviation(hue, central);
         let far = hue.map(|v| hue_distance(*v, mean as f32) > deviation as f32);
         Self { mean, deviation, ground: far.with(light, |far, light| *far || !light) }
@@ -64,7 +64,7 @@ impl FaceGround {
 ///
 /// Values must be 0 or more; they are counted in 1024 steps up to the largest.
 #[must_use]
-pub fn moment_preserving(values: impl Iterator<Item = f32> + Clone) -> Option<f32> {
+pub(crate) fn moment_preserving(values: impl Iterator<Item = f32> + Clone) -> Option<f32> {
     const STEPS: usize = 1024;
     let largest = values.clone().fold(0.0_f32, f32::max);
     if largest <= 0.0 || !largest.is_finite() {

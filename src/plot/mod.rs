@@ -29,7 +29,7 @@ use crate::pose::Emotion;
 
 /// The colour of an emotion's curve.
 #[must_use]
-pub const fn colour_of(emotion: Emotion) -> Colour {
+pub(crate) const fn colour_of(emotion: Emotion) -> Colour {
     match emotion {
         Emotion::Neutral => Colour::rgb(0x55, 0x55, 0x55),
         Emotion::Happy => Colour::rgb(0xE6, 0x9F, 0x00),

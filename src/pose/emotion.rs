@@ -48,7 +48,7 @@ impl Emotion {
     /// One letter that tells it from the other six where there is no room for the word, and no colour to rely on.
     /// Surprise is `U`, because sadness has the S.
     #[must_use]
-    pub const fn letter(self) -> char {
+    pub(crate) const fn letter(self) -> char {
         match self {
             Self::Neutral => 'N',
             Self::Happy => 'H',
@@ -132,7 +132,7 @@ impl Ratios {
 
     /// The strongest emotion besides neutral, with its ratio.
     #[must_use]
-    pub fn strongest(&self) -> (Emotion, f64) {
+    pub(crate) fn strongest(&self) -> (Emotion, f64) {
         let mut best = (Emotion::Happy, f64::NEG_INFINITY);
         for emotion in &Emotion::ALL[1..] {
             if self[*emotion] > best.1 {

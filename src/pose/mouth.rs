@@ -36,7 +36,7 @@ impl MouthShape {
 
     /// The letter used in files and on screens.
     #[must_use]
-    pub const fn letter(self) -> char {
+    pub(crate) const fn letter(self) -> char {
         match self {
             Self::M => 'm',
             Self::F => 'f',
@@ -52,7 +52,7 @@ impl MouthShape {
 
     /// The shape of a letter.
     #[must_use]
-    pub fn from_letter(letter: char) -> Option<Self> {
+    pub(crate) fn from_letter(letter: char) -> Option<Self> {
         Self::ALL.into_iter().find(|s| s.letter() == letter)
     }
 
@@ -142,7 +142,7 @@ impl MouthPose {
         speaking: 0.0,
     };
 
-    /// One shape, spoken. *n* comes with its corners at neutral; see [`Self::with_corners_of`].
+    /// One shape, spoken. *n* comes with its corners at neutral; see `with_corners_of`.
     #[must_use]
     pub fn of(shape: MouthShape, preset: MouthPreset) -> Self {
         PRESETS[preset as usize][shape as usize]
@@ -150,7 +150,7 @@ impl MouthPose {
 
     /// The same mouth with the corners of another: how *n* follows the shape before it.
     #[must_use]
-    pub fn with_corners_of(mut self, other: &Self) -> Self {
+    pub(crate) fn with_corners_of(mut self, other: &Self) -> Self {
         self.corner_in = other.corner_in;
         self.corner_down = other.corner_down;
         self
@@ -165,7 +165,7 @@ impl MouthPose {
     /// How much of the lips' own moves parts them: all of it, but for a bite, which lifts the upper lip over a lower
     /// one that it touches.
     #[must_use]
-    pub fn parting(&self) -> f64 {
+    pub(crate) fn parting(&self) -> f64 {
         1.0 - self.closure * self.bite
     }
 
@@ -178,7 +178,7 @@ impl MouthPose {
 
     /// The eleven numbers in the order of the fields.
     #[must_use]
-    pub const fn to_array(&self) -> [f64; 11] {
+    pub(crate) const fn to_array(self) -> [f64; 11] {
         [
             self.upper,
             self.lower,
@@ -194,7 +194,7 @@ impl MouthPose {
         ]
     }
 
-    /// The inverse of [`Self::to_array`].
+    /// The inverse of `to_array`.
     #[must_use]
     pub const fn from_array(a: [f64; 11]) -> Self {
         Self {

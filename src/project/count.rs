@@ -1,6 +1,6 @@
 //! Numbers of things in words.
 
 /// A number of things in words: `1 clip`, `2 clips`.
-pub(crate) fn counted(count: usize, what: &str) -> String {
+pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

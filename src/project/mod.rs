@@ -10,12 +10,12 @@ mod files;
 mod findings;
 mod jobs;
 
-pub(crate) use count::counted;
+pub use count::counted;
 pub use edit::{Change, ClipEdit, Edit, FaceEdit, Footage, History, Lesson, Said, Spot, Times, Unsaved, projects_in};
 pub use fault::ProjectFault;
 pub(crate) use files::check_output;
 pub use files::{
-    Clip, ClipEntry, FaceEntry, FaceShot, LABEL_LIMIT, LayerEntry, LessonFace, MANIFEST, Manifest, Output, read_script,
+    Clip, ClipEntry, FaceEntry, FaceShot, LayerEntry, LessonFace, MANIFEST, Manifest, Output, read_script,
 };
 pub use findings::{Concern, Doubt, Finding, check, check_quality};
 pub use jobs::{

@@ -6,7 +6,7 @@ use crate::pose::{Gaze, Head, Lids};
 /// Gives lost rows (confidence 0) ratios on a smooth way between the nearest rows that were found: it starts and ends
 /// without speed and does not go beyond them. At the ends the first and last found are held. Sums stay 1, and the
 /// confidence 0. A record without any found row is left as it is. Returns how many were bridged.
-pub fn bridge_record(record: &mut Record) -> usize {
+pub(crate) fn bridge_record(record: &mut Record) -> usize {
     let times: Vec<(f64, bool)> = record.rows.iter().map(|r| (r.time, r.confidence > 0.0)).collect();
     let ways = ways(&times);
     for (i, way) in &ways {
@@ -17,7 +17,7 @@ pub fn bridge_record(record: &mut Record) -> usize {
 }
 
 /// Gives lost rows of tracks values as [`bridge_record`] gives ratios.
-pub fn bridge_tracks(tracks: &mut Tracks) -> usize {
+pub(crate) fn bridge_tracks(tracks: &mut Tracks) -> usize {
     let times: Vec<(f64, bool)> = tracks.rows.iter().map(|r| (r.time, r.confidence > 0.0)).collect();
     let ways = ways(&times);
     for (i, way) in &ways {

@@ -85,13 +85,13 @@ const LIDS: Rows = &[(P::P3_6, &[(159, 0.5), (145, 0.5)]), (P::P3_5, &[(386, 0.5
 impl Binding {
     /// The binding of a model of iBUG's 68 points.
     #[must_use]
-    pub fn ibug68() -> Self {
+    pub(crate) fn ibug68() -> Self {
         Self::of_rows(68, IBUG.iter().map(|(p, sum)| (*p, sum.to_vec())).collect())
     }
 
     /// The binding of mediapipe's face mesh, of 468 points, or of 478 with the irises.
     #[must_use]
-    pub fn mediapipe(count: usize) -> Self {
+    pub(crate) fn mediapipe(count: usize) -> Self {
         let pupils = if count >= 478 { IRISES } else { LIDS };
         Self::of_rows(count, MEDIAPIPE.iter().chain(pupils).map(|(p, sum)| (*p, sum.to_vec())).collect())
     }

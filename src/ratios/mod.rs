@@ -5,7 +5,7 @@
 
 mod bridge;
 mod foreign;
-pub mod import;
+pub(crate) mod import;
 mod lpr;
 mod record;
 mod smooth;
@@ -13,10 +13,10 @@ mod stream;
 mod table;
 mod tracks;
 
-pub use bridge::{bridge_record, bridge_tracks};
+pub(crate) use bridge::{bridge_record, bridge_tracks};
 pub use lpr::{LprReader, LprWriter, Moment, Whole, is_lpr, to_lpr};
 pub use record::{Record, Row};
 pub use smooth::{SMOOTH_WIDTH, Steady, smooth_keeping_peaks, smooth_record, smooth_tracks};
 pub use stream::RecordReader;
-pub(crate) use table::decimal;
+pub use table::decimal;
 pub use tracks::{MouthMoves, TrackRow, Tracks};

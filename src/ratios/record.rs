@@ -56,7 +56,7 @@ impl Record {
     ///
     /// # Errors
     /// As [`Self::parse`], with the entry's number in place of a line.
-    pub fn parse_json(text: &str) -> Result<Self> {
+    pub(crate) fn parse_json(text: &str) -> Result<Self> {
         Self::from_lines(&table::from_json(text, &COLUMNS)?)
     }
 
@@ -93,7 +93,7 @@ impl Record {
 
     /// The record as a JSON array, one frame a line, with the digits of the CSV.
     #[must_use]
-    pub fn to_json(&self) -> String {
+    pub(crate) fn to_json(&self) -> String {
         let mut text = String::from("[");
         for (index, row) in self.rows.iter().enumerate() {
             text.push_str(if index == 0 { "\n" } else { ",\n" });
@@ -108,7 +108,7 @@ impl Record {
     /// The ratios and the confidence at a time in seconds: on the straight line between the two frames around it,
     /// the first and last frames held outside. Nothing where there are no frames.
     #[must_use]
-    pub fn at(&self, time: f64) -> Option<(Ratios, f64)> {
+    pub(crate) fn at(&self, time: f64) -> Option<(Ratios, f64)> {
         let after = self.rows.partition_point(|row| row.time <= time);
         let Some(before) = after.checked_sub(1).map(|i| &self.rows[i]) else {
             return self.rows.first().map(|row| (row.ratios, row.confidence));
@@ -154,7 +154,7 @@ impl Record {
     /// How long the record lasts, in seconds: to the end of its last frame, a frame being as long as they are on
     /// average. A single frame ends when it begins, because its length is not known.
     #[must_use]
-    pub fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         match (self.rows.first(), self.rows.last()) {
             (Some(first), Some(last)) if last.frame > first.frame => {
                 last.time + (last.time - first.time) / f64::from(last.frame - first.frame)

@@ -19,12 +19,12 @@ pub(super) struct Line {
 
 impl Line {
     /// The frame number; [`checked`] has made sure that it is one.
-    pub fn frame(&self) -> u32 {
+    pub(crate) fn frame(&self) -> u32 {
         self.cells[0] as u32
     }
 
     /// The time in seconds.
-    pub fn time(&self) -> f64 {
+    pub(crate) fn time(&self) -> f64 {
         self.cells[1]
     }
 }
@@ -37,7 +37,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    pub fn fault(self, what: impl Into<String>) -> Fault {
+    pub(crate) fn fault(self, what: impl Into<String>) -> Fault {
         match self {
             Self::Line(line) => Fault::new(what).line(line),
             Self::Entry(entry) => Fault::new(format!("entry {entry}: {}", what.into())),
@@ -138,7 +138,7 @@ fn checked(rows: Vec<Line>, columns: &[&str]) -> Result<Vec<Line>> {
 }
 
 /// A number with at most `places` decimals, no zeros at its end, and no minus before a zero.
-pub(crate) fn decimal(value: f64, places: i32) -> String {
+pub fn decimal(value: f64, places: i32) -> String {
     let scale = 10f64.powi(places);
     let rounded = (value * scale).round() / scale;
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })

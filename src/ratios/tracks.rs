@@ -73,7 +73,7 @@ impl Tracks {
     /// # Errors
     /// With the line: a column missing, a value that is no finite number, frames or times that do not rise, lids
     /// outside 0 to 2 or a confidence outside 0 to 1, no rows.
-    pub fn parse(text: &str) -> Result<Self> {
+    pub(crate) fn parse(text: &str) -> Result<Self> {
         let row = |line: &Line| {
             for (at, most) in [(4, 2.0), (5, 2.0), (13, 1.0)] {
                 if !(0.0..=most).contains(&line.cells[at]) {

@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter, Result, Write};
 /// Text safe inside elements and quoted attributes of XML and HTML. What XML cannot hold (XML 1.0, production 2) is left
 /// out, and so are control characters but newline and tab.
 #[derive(Debug, Clone, Copy)]
-pub struct Escaped<'a>(pub &'a str);
+pub(crate) struct Escaped<'a>(pub &'a str);
 
 impl Display for Escaped<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {

@@ -25,7 +25,7 @@ mod tiles;
 mod tokens;
 
 pub use clip::{ClipCoder, FrameCoder, Painted};
-pub use escaped::Escaped;
+pub(crate) use escaped::Escaped;
 pub use font::{FontFile, text_outline, text_width, uncovered, uncovered_in};
 pub use pixels::Painter;
 pub use png::{decode_key, encode_png, to_png};
@@ -36,7 +36,7 @@ pub use svg::to_svg;
 pub const MAX_SIDE: u32 = 16_384;
 
 /// Raised whenever the same drawing comes to give other pixels, so that frames of before are written anew.
-pub const REVISION: u32 = 4;
+pub(crate) const REVISION: u32 = 4;
 
 /// How far an outline may be from the true one, in units of the drawing: a tenth of a pixel at twice its size.
 const TOLERANCE: f64 = 0.05;

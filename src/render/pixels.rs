@@ -127,7 +127,7 @@ impl Painter {
     }
 
     /// Paints one drawing without handing it out. Returns whether no pixel lets through what is behind it.
-    pub fn update(&mut self, drawing: &Drawing) -> bool {
+    pub(crate) fn update(&mut self, drawing: &Drawing) -> bool {
         let plan = self.plan(drawing);
         self.refresh(&plan, |_| true);
         plan.is_opaque()

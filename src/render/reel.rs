@@ -20,7 +20,7 @@ impl Reel {
     ///
     /// # Errors
     /// When the picture would be too large, or has no pixels.
-    pub fn new(width: u32, height: u32) -> Result<Self> {
+    pub(crate) fn new(width: u32, height: u32) -> Result<Self> {
         let painter = Painter::new(width, height)?;
         let picture = painter.empty();
         Ok(Self { painter, picture, opaque: None })
@@ -28,7 +28,7 @@ impl Reel {
 
     /// Shows the next drawing. Returns the columns and rows outside which it is the same as the one before; empty ones where
     /// it is the same everywhere.
-    pub fn show(&mut self, drawing: &Drawing) -> (Range<u32>, Range<u32>) {
+    pub(crate) fn show(&mut self, drawing: &Drawing) -> (Range<u32>, Range<u32>) {
         let plan = self.painter.plan(drawing);
         let painted = self.painter.refresh(&plan, |_| true);
         let opaque = plan.is_opaque();
@@ -42,7 +42,7 @@ impl Reel {
 
     /// What is shown now.
     #[must_use]
-    pub fn picture(&self) -> &Picture {
+    pub(crate) fn picture(&self) -> &Picture {
         &self.picture
     }
 }

@@ -45,4 +45,4 @@ pub use sound::{FinalClass, InitialClass, Sound};
 pub use syllable::{Lang, Syllable};
 pub use system::System;
 pub use tokens::Pause;
-pub use written::{WrittenWord, without_braces, written_words};
+pub(crate) use written::{without_braces, written_words};

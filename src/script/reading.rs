@@ -16,14 +16,8 @@ pub struct Reading {
 impl Reading {
     /// A syllable with a tone. A number that is no tone counts as none.
     #[must_use]
-    pub fn new(sound: Sound, tone: Option<u8>) -> Self {
+    pub(crate) fn new(sound: Sound, tone: Option<u8>) -> Self {
         Self { sound, tone: tone.filter(|t| (1..=5).contains(t)) }
-    }
-
-    /// The suffix of erhua, `r5`: ㄦ, which stays a syllable of its own.
-    #[must_use]
-    pub fn erhua() -> Option<Self> {
-        Some(Self::new(Sound::from_hanyu("r")?, Some(5)))
     }
 
     /// The reading of one syllable as the data files write it: Hanyu Pinyin with ü and a digit.
@@ -41,7 +35,7 @@ impl Reading {
 
     /// The tone, 1 to 5, where it is known.
     #[must_use]
-    pub fn tone(&self) -> Option<u8> {
+    pub(crate) fn tone(&self) -> Option<u8> {
         self.tone
     }
 
@@ -59,7 +53,7 @@ impl Reading {
 
     /// Zhuyin as it is usually written: no mark for the first tone, the dot of the neutral tone first.
     #[must_use]
-    pub fn zhuyin(&self) -> String {
+    pub(crate) fn zhuyin(&self) -> String {
         let (symbols, tone) = (self.sound.zhuyin(), self.tone.unwrap_or(0));
         let mark = tone::zhuyin_mark(tone);
         if tone == 5 { format!("{mark}{symbols}") } else { format!("{symbols}{mark}") }

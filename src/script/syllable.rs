@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::label;
 use super::phone::{self, Phone};
 use super::reading::Reading;
-use super::sound::{FinalClass, InitialClass, Sound};
+use super::sound::Sound;
 use super::system::System;
 use super::tokens::Pause;
 use crate::pose::MouthShape;
@@ -109,17 +109,5 @@ impl Syllable {
     #[must_use]
     pub fn sound(&self) -> Option<Sound> {
         self.reading().map(|r| r.sound())
-    }
-
-    /// How it begins, for its timing; nothing for English.
-    #[must_use]
-    pub fn initial_class(&self) -> Option<InitialClass> {
-        self.sound().map(Sound::initial_class)
-    }
-
-    /// What follows its initial, for its timing; nothing for English.
-    #[must_use]
-    pub fn final_class(&self) -> Option<FinalClass> {
-        self.sound().map(Sound::final_class)
     }
 }

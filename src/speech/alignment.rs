@@ -6,7 +6,7 @@ use crate::media::Sound;
 use crate::script::Syllable;
 
 /// Confidence from which on a syllable's times need no look.
-pub const SURE: f64 = 0.75;
+pub(crate) const SURE: f64 = 0.75;
 
 /// A recording with what is said in it, to be aligned.
 #[derive(Debug, Clone, Copy)]

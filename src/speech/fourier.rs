@@ -20,7 +20,7 @@ pub(super) struct Powers {
 
 impl Powers {
     /// A transform of `size` samples.
-    pub fn new(size: usize) -> Self {
+    pub(crate) fn new(size: usize) -> Self {
         let plan = RealFftPlanner::new().plan_fft_forward(size);
         let (input, lines, scratch) = (plan.make_input_vec(), plan.make_output_vec(), plan.make_scratch_vec());
         Self { powers: vec![0.0; lines.len()], plan, input, lines, scratch }
@@ -28,7 +28,7 @@ impl Powers {
 
     /// The squared magnitudes of the lines from 0 to half the sample rate, `size / 2 + 1` of them. Samples that are
     /// missing at the end are 0; those beyond `size` are left out.
-    pub fn of(&mut self, samples: impl Iterator<Item = f32>) -> &[f32] {
+    pub(crate) fn of(&mut self, samples: impl Iterator<Item = f32>) -> &[f32] {
         self.input.fill(0.0);
         for (to, sample) in self.input.iter_mut().zip(samples) {
             *to = sample;

@@ -18,7 +18,8 @@ mod spectrogram;
 pub use align::align;
 #[cfg(feature = "tools")]
 pub use align::training;
-pub use alignment::{Alignment, Note, Pin, SURE, SpokenPhone, SpokenSyllable, Take};
+pub(crate) use alignment::SURE;
+pub use alignment::{Alignment, Note, Pin, SpokenPhone, SpokenSyllable, Take};
 pub use fault::SpeechFault;
 pub use nuclei::{Heard, nuclei};
 pub use pitch::{Pitch, pitch};

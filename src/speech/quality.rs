@@ -90,7 +90,7 @@ impl Sound {
 impl Quality {
     /// Whether the noise is in the way of weak consonants.
     #[must_use]
-    pub fn is_noisy(&self) -> bool {
+    pub(crate) fn is_noisy(&self) -> bool {
         self.snr_db < NOISY
     }
 

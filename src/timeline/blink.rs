@@ -29,7 +29,7 @@ pub struct Blink {
 impl Blink {
     /// How far the lids are closed at `t`: 0 open, 1 closed.
     #[must_use]
-    pub fn closed_at(&self, t: f64) -> f64 {
+    pub(crate) fn closed_at(&self, t: f64) -> f64 {
         let u = (t - self.start) / self.length;
         let (down, up) = PARTS;
         let level = if u <= 0.0 || u >= 1.0 {

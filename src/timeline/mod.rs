@@ -97,7 +97,7 @@ impl Timeline {
 
     /// Frames a second.
     #[must_use]
-    pub fn fps(&self) -> f64 {
+    pub(crate) fn fps(&self) -> f64 {
         self.fps
     }
 

@@ -124,7 +124,7 @@ const FADE: f64 = 0.08;
 impl Range {
     /// Whether both are one edit, of which a file keeps millionths and memory more.
     #[must_use]
-    pub fn is_same(&self, other: &Self) -> bool {
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
         let numbers = |r: &Self| [r.from, r.to, r.smooth];
         let lists = |r: &Self| -> Vec<f64> { r.scale[1..].iter().chain(&r.offset[1..]).copied().collect() };
         are_near(&numbers(self), &numbers(other)) && are_near(&lists(self), &lists(other))
@@ -138,7 +138,7 @@ impl Range {
 
     /// How much of the edit holds at `t`, 0 to 1.
     #[must_use]
-    pub fn weight(&self, t: f64) -> f64 {
+    pub(crate) fn weight(&self, t: f64) -> f64 {
         if t < self.from || t > self.to {
             return 0.0;
         }
@@ -160,7 +160,7 @@ pub struct Marker {
 impl Marker {
     /// Whether both are one marker, of which a file keeps millionths and memory more.
     #[must_use]
-    pub fn is_same(&self, other: &Self) -> bool {
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
         is_near(self.time, other.time) && self.text == other.text
     }
 }

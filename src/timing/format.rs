@@ -58,7 +58,7 @@ impl Format {
 
     /// The name on the command line.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::TextGrid => "textgrid",
             Self::TextGridShort => "textgrid-short",
@@ -78,7 +78,7 @@ impl Format {
 
     /// The usual ending of a file's name, without the point.
     #[must_use]
-    pub const fn extension(self) -> &'static str {
+    pub(crate) const fn extension(self) -> &'static str {
         match self {
             Self::TextGrid | Self::TextGridShort => "TextGrid",
             Self::Audacity => "txt",
@@ -98,13 +98,13 @@ impl Format {
 
     /// Whether it holds nothing but mouth shapes.
     #[must_use]
-    pub const fn holds_shapes(self) -> bool {
+    pub(crate) const fn holds_shapes(self) -> bool {
         matches!(self, Self::RhubarbTsv | Self::RhubarbJson | Self::RhubarbXml | Self::Moho)
     }
 
     /// What the ending of a file's name says.
     #[must_use]
-    pub fn from_path(path: &Path) -> Option<Self> {
+    pub(crate) fn from_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         Self::ALL.into_iter().find(|f| f.extension().to_ascii_lowercase() == extension)
     }

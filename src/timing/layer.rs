@@ -16,7 +16,7 @@ pub(super) struct Layer {
 
 impl Layer {
     /// An empty tier; its name becomes one line.
-    pub fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         Self { tier: Tier::new(disk::clean_line(name, 200)), until: 0.0 }
     }
 
@@ -25,7 +25,7 @@ impl Layer {
     /// # Errors
     /// Without a line, which the caller knows: times that are not numbers, negative, absurd, backwards, or before the
     /// end of the interval before.
-    pub fn lay(&mut self, start: f64, end: f64, label: &str) -> Result<()> {
+    pub(crate) fn lay(&mut self, start: f64, end: f64, label: &str) -> Result<()> {
         let (start, end) = (checked(start)?, checked(end)?);
         if start > end + SAME {
             return Err(Fault::new(format!("the interval starts at {start} and ends before that, at {end}"))
@@ -51,7 +51,7 @@ impl Layer {
     }
 
     /// The tier, and how far it is laid.
-    pub fn done(self) -> (Tier, f64) {
+    pub(crate) fn done(self) -> (Tier, f64) {
         (self.tier, self.until)
     }
 }

@@ -46,7 +46,7 @@ const NAMES: [(Option<MouthShape>, &str, &str); 10] = [
 
 impl Naming {
     /// Our shape of that name; nothing inside is silence.
-    pub fn ours(self, name: &str) -> Option<Option<MouthShape>> {
+    pub(crate) fn ours(self, name: &str) -> Option<Option<MouthShape>> {
         let row = NAMES.iter().find(|(_, rhubarb, blair)| match self {
             Self::Rhubarb => *rhubarb == name,
             Self::PrestonBlair => blair.eq_ignore_ascii_case(name),
@@ -55,14 +55,14 @@ impl Naming {
     }
 
     /// The name of our shape, or of silence.
-    pub fn theirs(self, shape: Option<MouthShape>) -> &'static str {
+    pub(crate) fn theirs(self, shape: Option<MouthShape>) -> &'static str {
         let shape = if shape == Some(MouthShape::H) { Some(MouthShape::I) } else { shape };
         let row = NAMES.iter().find(|(ours, ..)| *ours == shape);
         row.map_or("X", |(_, rhubarb, blair)| if self == Self::Rhubarb { *rhubarb } else { *blair })
     }
 
     /// Why a name is none.
-    pub fn unknown(self, name: &str) -> Fault {
+    pub(crate) fn unknown(self, name: &str) -> Fault {
         let names = match self {
             Self::Rhubarb => "A B C D E F G H X",
             Self::PrestonBlair => "AI E O U etc L WQ MBP FV rest, or A to H and X",
@@ -75,20 +75,20 @@ impl Naming {
 pub(super) struct Cues(Layer);
 
 impl Cues {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(Layer::new(TIER))
     }
 
     /// # Errors
     /// Without a line: a shape that is none, times that cannot be.
-    pub fn lay(&mut self, start: f64, end: f64, name: &str, naming: Naming) -> Result<()> {
+    pub(crate) fn lay(&mut self, start: f64, end: f64, name: &str, naming: Naming) -> Result<()> {
         let shape = naming.ours(name).ok_or_else(|| naming.unknown(name))?;
         self.0.lay(start, end, &shape.map(|s| s.to_string()).unwrap_or_default())
     }
 
     /// # Errors
     /// Where nothing was laid.
-    pub fn done(self, duration: f64) -> Result<Timing> {
+    pub(crate) fn done(self, duration: f64) -> Result<Timing> {
         let (tier, until) = self.0.done();
         if until == 0.0 && tier.intervals.is_empty() && duration == 0.0 {
             return Err(

@@ -30,7 +30,7 @@ impl Interval {
 
     /// How long it is, in seconds.
     #[must_use]
-    pub fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         self.end - self.start
     }
 }
@@ -103,7 +103,7 @@ impl Timing {
     }
 
     /// The tier of that name, to change.
-    pub fn tier_mut(&mut self, name: &str) -> Option<&mut Tier> {
+    pub(crate) fn tier_mut(&mut self, name: &str) -> Option<&mut Tier> {
         self.tiers.iter_mut().find(|t| t.name == name)
     }
 

@@ -62,7 +62,7 @@ pub(super) struct Watcher<'m> {
 }
 
 impl<'m> Watcher<'m> {
-    pub fn new(model: &'m Model, calibration: &'m Calibration, options: &Options) -> Result<Self> {
+    pub(crate) fn new(model: &'m Model, calibration: &'m Calibration, options: &Options) -> Result<Self> {
         let (points, shapes) = (model.count(), calibration.binding().count());
         if points != shapes {
             return Err(Fault::new(format!("the model has {points} points and the calibration {shapes}"))
@@ -73,7 +73,7 @@ impl<'m> Watcher<'m> {
     }
 
     /// What is seen of the face in the next frame; none where it is lost.
-    pub fn see(&mut self, grey: &Grey) -> Option<Seen> {
+    pub(crate) fn see(&mut self, grey: &Grey) -> Option<Seen> {
         let fit = self.follower.next(grey)?;
         let Fit { points, confidence, .. } = fit;
         let reading = if self.options.apart {

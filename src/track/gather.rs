@@ -49,7 +49,7 @@ const LEAST_DRAWN: f64 = 0.22;
 
 impl Rest {
     /// The middle of a video: medians of all that was seen. None where nothing was.
-    pub fn of(instants: &[Instant]) -> Option<Self> {
+    pub(crate) fn of(instants: &[Instant]) -> Option<Self> {
         let all = |pick: &dyn Fn(&Seen) -> Option<f64>| {
             let mut values: Vec<f64> = instants.iter().filter_map(|i| pick(i.seen.as_ref()?)).collect();
             values.sort_by(f64::total_cmp);
@@ -66,7 +66,7 @@ impl Rest {
     }
 
     /// The track of a frame; of a gaze that could not be seen, straight ahead.
-    pub fn track(&self, frame: u32, time: f64, seen: &Seen) -> TrackRow {
+    pub(crate) fn track(&self, frame: u32, time: f64, seen: &Seen) -> TrackRow {
         let m = &seen.measures;
         let off = (m.place - self.place) / self.pupils.max(1.0);
         let look = seen.iris.map_or(Vec2::ZERO, |at| at - self.iris);

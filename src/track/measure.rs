@@ -54,7 +54,7 @@ pub(super) struct Measures {
 impl<'c> Neutral<'c> {
     /// # Errors
     /// When the calibration's points do not tell where eyes, nose and mouth are.
-    pub fn of(calibration: &'c Calibration) -> Result<Self> {
+    pub(crate) fn of(calibration: &'c Calibration) -> Result<Self> {
         let shape = &calibration.laid()[0];
         let at = |name: P| {
             calibration.binding().at(shape, name).ok_or_else(|| {
@@ -75,7 +75,7 @@ impl<'c> Neutral<'c> {
     }
 
     /// The measures of a shape, in pixels; none where it has no extent or is another's.
-    pub fn measure(&self, shape: &[Point]) -> Option<Measures> {
+    pub(crate) fn measure(&self, shape: &[Point]) -> Option<Measures> {
         let binding = self.calibration.binding();
         let at = |name: P| binding.at(shape, name);
         let mut now = [Point::ORIGIN; STEADY.len()];

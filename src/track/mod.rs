@@ -58,7 +58,7 @@ impl Default for Options {
 }
 
 /// Is told how many frames are done, of how many where that is known, and says whether to go on.
-pub type GoOn<'a> = &'a mut dyn FnMut(usize, Option<usize>) -> bool;
+pub(crate) type GoOn<'a> = &'a mut dyn FnMut(usize, Option<usize>) -> bool;
 
 /// The fault of what was stopped.
 fn stopped() -> Fault {

@@ -16,9 +16,9 @@ use crate::disk::{Fault, FileFault, Result, read_text};
 use crate::geometry::{Point, Rect};
 
 /// The most points that one annotation may have.
-pub const MAX_POINTS: usize = 1000;
+pub(crate) const MAX_POINTS: usize = 1000;
 /// The most pictures that one file may annotate.
-pub const MAX_PICTURES: usize = 100_000;
+pub(crate) const MAX_PICTURES: usize = 100_000;
 
 /// The points of one face in one picture.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -87,15 +87,6 @@ impl Format {
         let asf = text.contains("AAM Shape File") || text.contains("number of model points");
         (asf || is_count(text)).then_some(Self::Asf)
     }
-
-    /// The format of a file with this ending, to write one.
-    #[must_use]
-    pub fn of_name(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        [(Self::Pts, "pts"), (Self::Asf, "asf"), (Self::Dlib, "xml")]
-            .into_iter()
-            .find_map(|(format, e)| (e == ending).then_some(format))
-    }
 }
 
 /// Whether the first line that is no comment is a bare number, as in an `.asf` without its comments.
@@ -157,18 +148,6 @@ impl Annotation {
         match self.unit {
             Unit::Pixels => self.points.clone(),
             Unit::Shares => self.points.iter().map(|p| Point::new(p.x * width as f64, p.y * height as f64)).collect(),
-        }
-    }
-
-    /// The same in shares of a picture's width and height.
-    #[must_use]
-    pub fn in_shares(&self, [width, height]: [usize; 2]) -> Self {
-        let share = |p: &Point| Point::new(p.x / width.max(1) as f64, p.y / height.max(1) as f64);
-        match self.unit {
-            Unit::Pixels => {
-                Self { points: self.points.iter().map(share).collect(), unit: Unit::Shares, ..self.clone() }
-            }
-            Unit::Shares => self.clone(),
         }
     }
 }

@@ -186,14 +186,14 @@ impl Decomposition {
     /// The angle between the directions in which two emotions move the points, in degrees from 0 (alike but for strength)
     /// to 180 (opposite). None with neutral, which has no direction, with itself, and of a shape that does not move.
     #[must_use]
-    pub fn angle(&self, a: Emotion, b: Emotion) -> Option<f64> {
+    pub(crate) fn angle(&self, a: Emotion, b: Emotion) -> Option<f64> {
         let (i, j) = (a.index().checked_sub(1)?, b.index().checked_sub(1)?);
         let size = (self.gram[i][i] * self.gram[j][j]).sqrt();
         let is_told = i != j && size > 1e-24;
         is_told.then(|| (self.gram[i][j] / size).clamp(-1.0, 1.0).acos().to_degrees())
     }
 
-    /// Pairs of emotions with the [`angle`](Self::angle) between them, the hardest to tell apart first.
+    /// Pairs of emotions with the `angle` between them, the hardest to tell apart first.
     #[must_use]
     pub fn alike(&self) -> Vec<(Emotion, Emotion, f64)> {
         let mut pairs = Vec::with_capacity(15);

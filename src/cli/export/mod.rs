@@ -18,7 +18,7 @@ use crate::figure::Widths;
 ///
 /// Run again, it only writes what is missing or has changed. `manifest.json` beside the files lists them with checksums.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The projects, or folders of them.
     #[arg(value_name = "PROJECT", required = true)]
     pub(super) projects: Vec<PathBuf>,
@@ -79,7 +79,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 ///
 /// # Errors
 /// When the call cannot be carried out, a project cannot be exported, or it was stopped.
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
+pub(crate) fn run(args: &Args, out: &mut dyn Write) -> Result<()> {
     let projects = super::lessons(&args.projects);
     let shard = match args.shard {
         Some(shard) => shard,

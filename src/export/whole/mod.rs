@@ -50,7 +50,7 @@ pub struct Written {
 impl Report {
     /// The same with whole files counted in.
     #[must_use]
-    pub fn with(mut self, made: &[Written]) -> Self {
+    pub(crate) fn with(mut self, made: &[Written]) -> Self {
         for written in made {
             self.written += written.report.written;
             self.kept += written.report.kept;

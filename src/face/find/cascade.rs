@@ -31,7 +31,7 @@ impl Chip {
 
     /// The same crop in grey.
     #[must_use]
-    pub fn plane(picture: &Pyramid, face: &Similarity, scale: f64) -> crate::photo::Plane {
+    pub(crate) fn plane(picture: &Pyramid, face: &Similarity, scale: f64) -> crate::photo::Plane {
         let place = face.after(&Similarity { a: 1.0 / scale, b: 0.0, origin: Point::new(VIEW[0], VIEW[1]) });
         let size = |from: f64, to: f64| ((to - from) * scale).round() as usize;
         picture.crop(&place, size(VIEW[0], VIEW[2]), size(VIEW[1], VIEW[3]))
@@ -115,7 +115,7 @@ impl Stage {
     }
 
     /// Moves a shape in the face frame of the chip.
-    pub fn step(&self, model: &ShapeModel, chip: &Spread, shape: &mut [Point]) {
+    pub(crate) fn step(&self, model: &ShapeModel, chip: &Spread, shape: &mut [Point]) {
         let mut short = Vec::new();
         let start = shape.to_vec();
         for block in &self.blocks {
@@ -135,7 +135,7 @@ impl Stage {
 
     /// What the first row of the first block says of a shape: how stages judge instead of move.
     #[must_use]
-    pub fn judge(&self, chip: &Spread, shape: &[Point]) -> f32 {
+    pub(crate) fn judge(&self, chip: &Spread, shape: &[Point]) -> f32 {
         let Some(block) = self.blocks.first() else { return 0.0 };
         let mut short = Vec::new();
         self.describe(chip, shape, &block.sites, &mut short);
@@ -145,7 +145,7 @@ impl Stage {
     }
 
     /// Into bytes.
-    pub fn write(&self, out: &mut Writer) {
+    pub(crate) fn write(&self, out: &mut Writer) {
         out.numbers(&[self.scale as f32, self.cell as f32]);
         out.matrix(&self.basis);
         out.numbers(&self.usual);
@@ -163,7 +163,7 @@ impl Stage {
     }
 
     /// From bytes.
-    pub fn read(bytes: &mut Reader) -> Option<Self> {
+    pub(crate) fn read(bytes: &mut Reader) -> Option<Self> {
         let head = bytes.numbers()?;
         let [scale, cell] = head[..] else { return None };
         let (basis, usual) = (bytes.matrix()?, bytes.numbers()?);

@@ -5,12 +5,12 @@ use crate::drawing::Image;
 use crate::photo::Plane;
 
 /// Directions of an edge, 45° apart; opposite ones differ, since a face is dark on one side of an edge.
-pub const BINS: usize = 8;
+pub(crate) const BINS: usize = 8;
 /// Numbers in a descriptor: four by four places, eight directions.
 pub const DESCRIPTOR: usize = 16 * BINS;
 
 /// Strength of the gradient in each direction, a pixel at a time.
-pub type Channels = Image<[f32; BINS]>;
+pub(crate) type Channels = Image<[f32; BINS]>;
 
 /// `cos` and `sin` of the eight directions.
 const HALF: f32 = std::f32::consts::FRAC_1_SQRT_2;
@@ -32,7 +32,7 @@ fn share(gx: f32, gy: f32) -> [f32; BINS] {
 impl Channels {
     /// Of a grey plane.
     #[must_use]
-    pub fn of(plane: &Plane) -> Self {
+    pub(crate) fn of(plane: &Plane) -> Self {
         let (width, height) = (plane.width(), plane.height());
         let mut values = Vec::with_capacity(width * height);
         for y in 0..height {
@@ -48,7 +48,7 @@ impl Channels {
 
     /// Sums over squares of `side` pixels, one after another; what is left at the right and below is dropped.
     #[must_use]
-    pub fn cells(plane: &Plane, side: usize) -> Self {
+    pub(crate) fn cells(plane: &Plane, side: usize) -> Self {
         let (width, height) = (plane.width() / side, plane.height() / side);
         let mut cells = Self::filled(width, height, [0.0; BINS]);
         let last = plane.width() - 1;
@@ -71,7 +71,7 @@ impl Channels {
     /// Spread so that a pixel holds what lies within `cell` pixels of it, the nearer the more: a triangle, by two
     /// running means.
     #[must_use]
-    pub fn spread(&self, cell: f32) -> Self {
+    pub(crate) fn spread(&self, cell: f32) -> Self {
         let side = (cell.round() as usize).max(1);
         let (before, after) = (side / 2, (side - 1) / 2);
         let mut out = self.clone();
@@ -124,7 +124,7 @@ impl Channels {
 
     /// Mean strength over the middle half of the picture: what its gradients are measured against.
     #[must_use]
-    pub fn strength(&self) -> f32 {
+    pub(crate) fn strength(&self) -> f32 {
         let (w, h) = (self.width(), self.height());
         let mut sum = 0.0;
         for y in h / 4..h - h / 4 {
@@ -136,7 +136,7 @@ impl Channels {
     /// The descriptor at a place of channels [spread](Self::spread) by `cell`: four by four samples `cell` apart,
     /// scaled to length 1, no number above 0.25 (Lowe 2004, sec. 6.1). Where there is hardly an edge the length stays
     /// below 1: `strength` is what [`strength`](Self::strength) says of the picture.
-    pub fn describe(&self, x: f32, y: f32, cell: f32, strength: f32, out: &mut [f32]) {
+    pub(crate) fn describe(&self, x: f32, y: f32, cell: f32, strength: f32, out: &mut [f32]) {
         for (n, place) in out.chunks_exact_mut(BINS).enumerate() {
             let (u, v) = ((n % 4) as f32 - 1.5, (n / 4) as f32 - 1.5);
             place.copy_from_slice(&self.sample(x + u * cell, y + v * cell));

@@ -124,14 +124,14 @@ impl Detector {
     }
 
     /// Into bytes.
-    pub fn write(&self, out: &mut Writer) {
+    pub(crate) fn write(&self, out: &mut Writer) {
         out.numbers(&self.rolls);
         out.matrix(&self.templates);
         out.numbers(&self.bias);
     }
 
     /// From bytes.
-    pub fn read(bytes: &mut Reader) -> Option<Self> {
+    pub(crate) fn read(bytes: &mut Reader) -> Option<Self> {
         Some(Self { rolls: bytes.numbers()?, templates: bytes.matrix()?, bias: bytes.numbers()? })
     }
 }

@@ -51,7 +51,7 @@ impl Looks {
     }
 
     /// Into bytes.
-    pub fn write(&self, out: &mut Writer) {
+    pub(crate) fn write(&self, out: &mut Writer) {
         out.matrix(&self.usual);
         out.matrix(&self.sharpness);
         out.numbers(&self.base);
@@ -59,7 +59,7 @@ impl Looks {
     }
 
     /// From bytes.
-    pub fn read(bytes: &mut Reader) -> Option<Self> {
+    pub(crate) fn read(bytes: &mut Reader) -> Option<Self> {
         Some(Self {
             usual: bytes.matrix()?,
             sharpness: bytes.matrix()?,

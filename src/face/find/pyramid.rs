@@ -23,7 +23,7 @@ impl Pyramid {
     /// Of the square round a face that reaches 2.2 pupil distances from between the mouth and the eyes: reduced by
     /// whole pixels, but so that at least `fine` of them make a pupil distance where the photo has them.
     #[must_use]
-    pub fn round_face(photo: &Photo, face: &Similarity, fine: f64) -> Self {
+    pub(crate) fn round_face(photo: &Photo, face: &Similarity, fine: f64) -> Self {
         let middle = face.apply(Point::new(0.0, 0.3));
         let reach = 2.2 * face.scale();
         let step = ((face.scale() / fine) as usize).max(1);
@@ -92,7 +92,7 @@ impl Pyramid {
 
     /// Photo pixels to a pixel of its first level.
     #[must_use]
-    pub fn step(&self) -> f64 {
+    pub(crate) fn step(&self) -> f64 {
         self.step
     }
 }

@@ -81,7 +81,7 @@ impl Model {
 
     /// How strange each point of a fit looks.
     #[must_use]
-    pub fn strangeness(&self, picture: &Pyramid, fit: &Fit) -> Vec<f32> {
+    pub(crate) fn strangeness(&self, picture: &Pyramid, fit: &Fit) -> Vec<f32> {
         let (chip, shape) = self.upright(picture, fit, self.first_look());
         self.looks.strangeness(self.first_look(), &chip, &shape)
     }
@@ -100,7 +100,7 @@ impl Model {
 }
 
 /// Whether two frames are of different faces.
-pub fn apart(a: &Similarity, b: &Similarity) -> bool {
+pub(crate) fn apart(a: &Similarity, b: &Similarity) -> bool {
     let middle = |f: &Similarity| f.apply(Point::new(0.0, BELOW));
     middle(a).distance(middle(b)) > 0.9 * a.scale().max(b.scale())
 }

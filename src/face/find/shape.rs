@@ -54,7 +54,7 @@ impl ShapeModel {
     /// distances that may be off; `loose` is how far, in shares of people's differences, the rest may follow: 1 for
     /// a mean shape, less for one already fitted.
     #[must_use]
-    pub fn given(&self, shape: &[Point], fixed: &[(usize, Point, f64)], loose: f64) -> Vec<Point> {
+    pub(crate) fn given(&self, shape: &[Point], fixed: &[(usize, Point, f64)], loose: f64) -> Vec<Point> {
         let mut bent = shape.to_vec();
         if fixed.is_empty() {
             return bent;
@@ -86,7 +86,7 @@ impl ShapeModel {
     }
 
     /// Into bytes.
-    pub fn write(&self, out: &mut Writer) {
+    pub(crate) fn write(&self, out: &mut Writer) {
         out.numbers(&self.mean.iter().flat_map(|p| [p.x as f32, p.y as f32]).collect::<Vec<_>>());
         out.matrix(&self.modes);
         out.numbers(&self.spread);
@@ -94,7 +94,7 @@ impl ShapeModel {
     }
 
     /// From bytes.
-    pub fn read(bytes: &mut Reader) -> Option<Self> {
+    pub(crate) fn read(bytes: &mut Reader) -> Option<Self> {
         let mean = bytes.numbers()?;
         let mean = mean.chunks_exact(2).map(|p| Point::new(f64::from(p[0]), f64::from(p[1]))).collect();
         let (modes, spread) = (bytes.matrix()?, bytes.numbers()?);

@@ -32,7 +32,7 @@ impl Matrix {
 
 /// The inner product, by sixteen sums side by side, which the processor can do at once.
 #[must_use]
-pub fn dot(a: &[f32], b: &[f32]) -> f32 {
+pub(crate) fn dot(a: &[f32], b: &[f32]) -> f32 {
     let mut sums = [0.0_f32; 16];
     let (whole, rest) = a.as_chunks::<16>();
     let (other, tail) = b.as_chunks::<16>();
@@ -46,22 +46,22 @@ pub fn dot(a: &[f32], b: &[f32]) -> f32 {
 
 /// Numbers on their way into bytes.
 #[derive(Debug, Default)]
-pub struct Writer(pub Vec<u8>);
+pub(crate) struct Writer(pub Vec<u8>);
 
 impl Writer {
     /// A count.
-    pub fn count(&mut self, n: usize) {
+    pub(crate) fn count(&mut self, n: usize) {
         self.0.extend((n as u32).to_le_bytes());
     }
 
     /// Numbers as they are, their count first.
-    pub fn numbers(&mut self, values: &[f32]) {
+    pub(crate) fn numbers(&mut self, values: &[f32]) {
         self.count(values.len());
         values.iter().for_each(|v| self.0.extend(v.to_le_bytes()));
     }
 
     /// A matrix of one byte a number: each row's largest becomes 127.
-    pub fn matrix(&mut self, matrix: &Matrix) {
+    pub(crate) fn matrix(&mut self, matrix: &Matrix) {
         self.count(matrix.rows);
         self.count(matrix.columns);
         for n in 0..matrix.rows {
@@ -75,7 +75,7 @@ impl Writer {
 
 /// Bytes on their way back into numbers; none where they end too early.
 #[derive(Debug)]
-pub struct Reader<'a>(pub &'a [u8]);
+pub(crate) struct Reader<'a>(pub &'a [u8]);
 
 impl Reader<'_> {
     fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
@@ -85,17 +85,17 @@ impl Reader<'_> {
     }
 
     /// A count.
-    pub fn count(&mut self) -> Option<usize> {
+    pub(crate) fn count(&mut self) -> Option<usize> {
         Some(u32::from_le_bytes(self.take()?) as usize)
     }
 
     /// Numbers with their count before them.
-    pub fn numbers(&mut self) -> Option<Vec<f32>> {
+    pub(crate) fn numbers(&mut self) -> Option<Vec<f32>> {
         (0..self.count()?).map(|_| Some(f32::from_le_bytes(self.take()?))).collect()
     }
 
     /// A matrix of one byte a number.
-    pub fn matrix(&mut self) -> Option<Matrix> {
+    pub(crate) fn matrix(&mut self) -> Option<Matrix> {
         let (rows, columns) = (self.count()?, self.count()?);
         let mut values = Vec::new();
         for _ in 0..rows {

@@ -36,7 +36,7 @@ fn terms(cell: usize) -> [f32; TERMS] {
 impl Backdrop {
     /// Fits the surface to the border of what the photo shows, and then to all beyond the head that it explains:
     /// what of it is hair or clothes does not fit, and falls out.
-    pub fn of(lab: &[Lab], inside: &[bool], shape: &Shape) -> Self {
+    pub(crate) fn of(lab: &[Lab], inside: &[bool], shape: &Shape) -> Self {
         let border = border(inside);
         let far = |p: Point| {
             let middle = (shape.brows + shape.chin) / 2.0 - 30.0;
@@ -78,12 +78,12 @@ impl Backdrop {
     }
 
     /// The colour of the surface at a cell.
-    pub fn colour(&self, cell: usize) -> Lab {
+    pub(crate) fn colour(&self, cell: usize) -> Lab {
         value(&self.surface, cell)
     }
 
     /// The logarithm of the density of a colour at a cell.
-    pub fn log(&self, lab: Lab, cell: usize) -> f32 {
+    pub(crate) fn log(&self, lab: Lab, cell: usize) -> f32 {
         let wall = value(&self.surface, cell);
         // The head's shadow on the wall: less light scales all of OKLab alike.
         let scale = (lab[0] / wall[0].max(0.05)).clamp(0.6, 1.0);

@@ -27,7 +27,7 @@ pub(super) struct Frame {
 
 impl Frame {
     /// Warps `photo` so that the pupils of `points` lie 100 units apart on a level line.
-    pub fn of(photo: &Photo, points: &Points) -> Self {
+    pub(crate) fn of(photo: &Photo, points: &Points) -> Self {
         let to_units = to_face_frame(points[P::P3_6], points[P::P3_5]);
         let to_photo = to_units.inverse();
         let scale = to_photo.determinant().abs().sqrt();
@@ -50,30 +50,30 @@ impl Frame {
     }
 
     /// The 47 points in units.
-    pub fn units(&self, points: &Points) -> Points {
+    pub(crate) fn units(&self, points: &Points) -> Points {
         Points(points.0.map(|p| self.to_units * p))
     }
 
     /// Units as pixels of the photo.
-    pub fn photo(&self, p: Point) -> Point {
+    pub(crate) fn photo(&self, p: Point) -> Point {
         self.to_photo * p
     }
 
     /// The colour at a place in units; beyond the frame that of its border.
-    pub fn at(&self, x: f64, y: f64) -> Lab {
+    pub(crate) fn at(&self, x: f64, y: f64) -> Lab {
         let column = (x - VIEW.x0).round().clamp(0.0, (WIDTH - 1) as f64) as usize;
         let row = (y - VIEW.y0).round().clamp(0.0, (HEIGHT - 1) as f64) as usize;
         self.lab[row * WIDTH + column]
     }
 
     /// All colours within `radius` units of `at`, a square.
-    pub fn around(&self, at: Point, radius: f64) -> Vec<Lab> {
+    pub(crate) fn around(&self, at: Point, radius: f64) -> Vec<Lab> {
         let r = Rect::from_center_size(at, (2.0 * radius, 2.0 * radius));
         self.within(&[Point::new(r.x0, r.y0), Point::new(r.x1, r.y0), Point::new(r.x1, r.y1), Point::new(r.x0, r.y1)])
     }
 
     /// All colours of the photo inside a polygon given in units.
-    pub fn within(&self, polygon: &[Point]) -> Vec<Lab> {
+    pub(crate) fn within(&self, polygon: &[Point]) -> Vec<Lab> {
         let mut found = Vec::new();
         let shifted: Vec<Point> = polygon.iter().map(|p| *p - VIEW.origin().to_vec2()).collect();
         scan(&shifted, WIDTH, HEIGHT, |row, from, to| {

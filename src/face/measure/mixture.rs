@@ -22,7 +22,7 @@ pub(super) const LEAST: Lab = [0.02, 0.007, 0.007];
 impl Mixture {
     /// A mixture of at most `parts` Gaussians for colours with weights: k-means from colours spread by lightness, then
     /// a few rounds of expectation and maximisation. None without any weight.
-    pub fn of(samples: &[(Lab, f32)], parts: usize, least: Lab) -> Option<Self> {
+    pub(crate) fn of(samples: &[(Lab, f32)], parts: usize, least: Lab) -> Option<Self> {
         let total: f32 = samples.iter().map(|s| s.1).sum();
         if total < 8.0 {
             return None;
@@ -82,14 +82,14 @@ impl Mixture {
     }
 
     /// Adds a Gaussian with its own spread along the axes.
-    pub fn with(mut self, mean: Lab, spread: Lab, weight: f32) -> Self {
+    pub(crate) fn with(mut self, mean: Lab, spread: Lab, weight: f32) -> Self {
         let [l, a, b] = spread.map(|s| f64::from(s).powi(2));
         self.parts.push(Part::of(mean, [l, 0.0, a, 0.0, 0.0, b], weight));
         self
     }
 
     /// Without the parts whose means `test` holds of, as long as parts of a quarter of the weight are left.
-    pub fn without(mut self, test: impl Fn(Lab) -> bool) -> Self {
+    pub(crate) fn without(mut self, test: impl Fn(Lab) -> bool) -> Self {
         let left: f32 = self.parts.iter().filter(|p| !test(p.mean)).map(|p| p.weight).sum();
         if left > 0.25 {
             self.parts.retain(|p| !test(p.mean));
@@ -98,17 +98,17 @@ impl Mixture {
     }
 
     /// One Gaussian with its own spread along the axes.
-    pub fn single(mean: Lab, spread: Lab) -> Self {
+    pub(crate) fn single(mean: Lab, spread: Lab) -> Self {
         Self { parts: Vec::new() }.with(mean, spread, 1.0)
     }
 
     /// The mean of its heaviest part.
-    pub fn heaviest(&self) -> Lab {
+    pub(crate) fn heaviest(&self) -> Lab {
         self.parts.iter().max_by(|a, b| a.weight.total_cmp(&b.weight)).map_or([0.5, 0.0, 0.0], |p| p.mean)
     }
 
     /// The logarithm of the density, that of the strongest part.
-    pub fn log(&self, lab: Lab) -> f32 {
+    pub(crate) fn log(&self, lab: Lab) -> f32 {
         self.parts.iter().fold(f32::NEG_INFINITY, |m, p| m.max(p.log(lab)))
     }
 }

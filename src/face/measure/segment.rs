@@ -33,22 +33,22 @@ pub(super) struct Regions {
 
 impl Regions {
     /// How likely each cell is hair.
-    pub fn hair(&self) -> &[f32] {
+    pub(crate) fn hair(&self) -> &[f32] {
         self.classes[HAIR].pixels()
     }
 
     /// How likely each cell is skin.
-    pub fn skin(&self) -> &[f32] {
+    pub(crate) fn skin(&self) -> &[f32] {
         self.classes[SKIN].pixels()
     }
 
     /// How likely each cell is what lies behind the head.
-    pub fn back(&self) -> &[f32] {
+    pub(crate) fn back(&self) -> &[f32] {
         self.classes[BACK].pixels()
     }
 
     /// How sure the labels around a place in units are, 0 to 1.
-    pub fn confidence(&self, at: Point) -> f64 {
+    pub(crate) fn confidence(&self, at: Point) -> f64 {
         let (row, column) = (row_at(at.y), column_at(at.x));
         let (mut sum, mut count) = (0.0_f32, 0.0_f32);
         for r in row.saturating_sub(2)..(row + 3).min(ROWS) {
@@ -62,7 +62,7 @@ impl Regions {
     }
 
     /// Tells the four apart.
-    pub fn of(frame: &Frame, shape: &Shape) -> Self {
+    pub(crate) fn of(frame: &Frame, shape: &Shape) -> Self {
         let (lab, inside) = cells(frame);
         let backdrop = Backdrop::of(&lab, &inside, shape);
         let face = cells_in(&shape.face);

@@ -28,7 +28,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub fn of(points: Points) -> Self {
+    pub(crate) fn of(points: Points) -> Self {
         let p = points;
         let mean = |a: P, b: P| (p[a].y + p[b].y) / 2.0;
         let half = |a: P, b: P| ((p[b].x - p[a].x) / 2.0).abs().max(1.0);

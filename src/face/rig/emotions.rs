@@ -52,7 +52,7 @@ pub struct Expression {
 }
 
 /// Numbers of an [`Expression`], and columns of the table after the first.
-pub const EXPRESSION_NUMBERS: usize = 20;
+pub(crate) const EXPRESSION_NUMBERS: usize = 20;
 /// The first of the columns that say how much of something there is, which is never less than none.
 const FIRST_AMOUNT: usize = 13;
 /// How far a single ratio counts: the paper's decomposition gives values a little outside 0 to 1, a slip gives any.
@@ -64,13 +64,13 @@ const BEYOND: f64 = 0.25;
 impl Expression {
     /// The expression of a mix as everybody has it: [`Expressions::general`] blended.
     #[must_use]
-    pub fn of(ratios: &Ratios) -> Self {
+    pub(crate) fn of(ratios: &Ratios) -> Self {
         Expressions::general().mix(ratios)
     }
 
     /// Its numbers, in the order of the fields.
     #[must_use]
-    pub const fn to_array(&self) -> [f64; EXPRESSION_NUMBERS] {
+    pub(crate) const fn to_array(self) -> [f64; EXPRESSION_NUMBERS] {
         [
             self.brow_in,
             self.brow_inner,
@@ -97,7 +97,7 @@ impl Expression {
 
     /// From its numbers, in the order of the fields.
     #[must_use]
-    pub const fn from_array(a: [f64; EXPRESSION_NUMBERS]) -> Self {
+    pub(crate) const fn from_array(a: [f64; EXPRESSION_NUMBERS]) -> Self {
         Self {
             brow_in: a[0],
             brow_inner: a[1],
@@ -141,7 +141,7 @@ impl Expressions {
     /// From the expression of each emotion, in canonical order. What is no number is everybody's; and no number is
     /// taken farther than a mix of everybody's may go: no face is turned inside out.
     #[must_use]
-    pub fn of(list: &[Expression; 7]) -> Self {
+    pub(crate) fn of(list: &[Expression; 7]) -> Self {
         let general = Self::general();
         let mut rows = list.map(|e| e.to_array());
         for (row, usual) in rows.iter_mut().zip(&general.rows) {
@@ -161,7 +161,7 @@ impl Expressions {
     /// The expression of a mix: the rows blended by the ratios (paper eq. 6), each number kept within a quarter of its
     /// column's span beyond what any one emotion asks for.
     #[must_use]
-    pub fn mix(&self, ratios: &Ratios) -> Expression {
+    pub(crate) fn mix(&self, ratios: &Ratios) -> Expression {
         let neutral = &self.rows[0];
         let mut mix = *neutral;
         for emotion in &Emotion::ALL[1..] {

@@ -17,7 +17,8 @@ mod prepare;
 mod proportions;
 
 pub use deformed::Deformed;
-pub use emotions::{EXPRESSION_NUMBERS, Expression, Expressions};
+pub(crate) use emotions::EXPRESSION_NUMBERS;
+pub use emotions::{Expression, Expressions};
 pub use eye::Eye;
 pub use mouth::Mouth;
 pub use neutral::Neutral;

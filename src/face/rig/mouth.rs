@@ -92,7 +92,7 @@ impl Mouth {
 
     /// How far it is open as a mouth, not a line: 0 to 1.
     #[must_use]
-    pub fn parted(&self) -> f64 {
+    pub(crate) fn parted(&self) -> f64 {
         smoothstep(0.3, 3.0, self.gap())
     }
 

@@ -60,7 +60,7 @@ impl Neutral {
 
     /// How it shows the emotions.
     #[must_use]
-    pub fn expressions(&self) -> &Expressions {
+    pub(crate) fn expressions(&self) -> &Expressions {
         &self.expressions
     }
 
@@ -84,7 +84,7 @@ impl Neutral {
 
     /// The face in a pose, with this expression instead of that of the pose's ratios.
     #[must_use]
-    pub fn express(&self, expression: Expression, pose: &Pose) -> Deformed {
+    pub(crate) fn express(&self, expression: Expression, pose: &Pose) -> Deformed {
         let mut points = self.points;
         let mouth = self.lips.pose(&expression, &pose.mouth);
         mouth.place(&mut points);

@@ -4,7 +4,7 @@ use super::head::Outline;
 use super::{BrowStyle, Cartoon, Sheet, brow, eye, mouth, skin, wrinkles};
 use crate::drawing::{Drawing, Item, Layer};
 use crate::face::FeaturePoint as P;
-use crate::face::rig::{Deformed, Proportions};
+use crate::face::rig::Deformed;
 use crate::figure::describe;
 use crate::geometry::{Affine, BezPath, PathEl, Point, Vec2, brush, flattened};
 use crate::pose::Pose;
@@ -149,11 +149,5 @@ impl Cartoon {
             items.extend(frown);
         }
         items
-    }
-
-    /// The proportions that its style draws with.
-    #[must_use]
-    pub fn proportions(&self) -> &Proportions {
-        &self.style.proportions
     }
 }

@@ -22,8 +22,9 @@ mod wrinkles;
 
 use std::sync::Arc;
 
-pub use palette::{Chosen, Palette};
-pub use style::{BrowStyle, HairCurve, NoseStyle, STYLE_FORMAT, Style};
+pub(crate) use palette::{Chosen, Palette};
+pub use style::Style;
+pub(crate) use style::{BrowStyle, NoseStyle};
 
 use crate::drawing::{Item, Oklch};
 use crate::face::rig::{Expressions, Neutral};
@@ -142,7 +143,7 @@ impl Cartoon {
 
     /// The same, showing the emotions as a person of these expressions does.
     #[must_use]
-    pub fn with_expressions(self, expressions: Expressions) -> Self {
+    pub(crate) fn with_expressions(self, expressions: Expressions) -> Self {
         let mut own = Self::with_ink(self.face, self.style, expressions, self.bolder);
         own.extras = self.extras;
         own.fingerprint = own.draw(&crate::pose::Pose::default()).fingerprint();
@@ -159,7 +160,7 @@ impl Cartoon {
 
     /// What the figure is called.
     #[must_use]
-    pub fn title(&self) -> &str {
+    pub(crate) fn title(&self) -> &str {
         &self.title
     }
 

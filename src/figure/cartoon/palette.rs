@@ -12,14 +12,14 @@ macro_rules! palette {
     ($($name:ident $what:literal;)*) => {
         /// Every colour that a cartoon is drawn with.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub struct Palette {
+        pub(crate) struct Palette {
             $(#[doc = concat!($what, ".")] pub $name: Colour,)*
         }
 
         /// Colours that an author has chosen herself. Where a colour has shades, they follow it unless chosen too.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
         #[serde(deny_unknown_fields, default)]
-        pub struct Chosen {
+        pub(crate) struct Chosen {
             $(#[doc = concat!($what, ".")] pub $name: Option<Colour>,)*
         }
 
@@ -83,7 +83,7 @@ const DARK: f64 = 0.6;
 impl Palette {
     /// The colours of a drawing in colour. `shirt` is a hue in degrees; ground and disc are chosen to suit it.
     #[must_use]
-    pub fn of(measured: &Colours, shirt: f64, chosen: &Chosen) -> Self {
+    pub(crate) fn of(measured: &Colours, shirt: f64, chosen: &Chosen) -> Self {
         let photo = signed(measured.skin);
         let skin = chosen.skin.map_or_else(|| drawn_skin(photo), signed);
         let dark = skin.l < DARK;
@@ -153,7 +153,7 @@ impl Palette {
 
     /// The colours of a drawing in ink alone: paper and one ink, and nothing for what only shades.
     #[must_use]
-    pub fn of_ink(chosen: &Chosen) -> Self {
+    pub(crate) fn of_ink(chosen: &Chosen) -> Self {
         let ink = chosen.ink.unwrap_or(Colour::rgb(0x26, 0x20, 0x1d));
         let paper = chosen.ground.unwrap_or(Colour::WHITE);
         let mut p = Self::plain(Colour { a: 0, ..paper });

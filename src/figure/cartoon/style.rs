@@ -11,7 +11,7 @@ use crate::face::HairKind;
 use crate::face::rig::Proportions;
 
 /// The version of the format that is read.
-pub const STYLE_FORMAT: u32 = 1;
+pub(crate) const STYLE_FORMAT: u32 = 1;
 
 /// How a cartoon is drawn. Made of a file by [`Style::parse`], so its numbers are within their limits.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +47,7 @@ pub(super) enum Choice {
 /// How the outline of hair runs through its vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum HairCurve {
+pub(crate) enum HairCurve {
     /// Cubics, with sharp tips where hair has them.
     #[default]
     Tufts,
@@ -58,7 +58,7 @@ pub enum HairCurve {
 /// How brows are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum BrowStyle {
+pub(crate) enum BrowStyle {
     /// A brush as full as they are.
     #[default]
     Brush,
@@ -69,7 +69,7 @@ pub enum BrowStyle {
 /// How the nose is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum NoseStyle {
+pub(crate) enum NoseStyle {
     /// By wings, nostrils and base.
     #[default]
     Modelled,

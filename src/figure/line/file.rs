@@ -40,7 +40,7 @@ use crate::geometry::{Knot, Point, Rect, Ribbon};
 use crate::pose::Emotion;
 
 /// The version of the format that is read.
-pub const FIGURE_FORMAT: u32 = 1;
+pub(crate) const FIGURE_FORMAT: u32 = 1;
 
 /// Coordinates beyond this are a slip of the hand.
 const FARTHEST: f64 = 100_000.0;

@@ -12,7 +12,6 @@ mod widths;
 
 use std::collections::BTreeMap;
 
-pub use file::FIGURE_FORMAT;
 pub use widths::Widths;
 
 use crate::disk::{Fault, FileFault, Result, suggestion};
@@ -119,7 +118,7 @@ impl LineFigure {
 
     /// What the figure is called.
     #[must_use]
-    pub fn title(&self) -> &str {
+    pub(crate) fn title(&self) -> &str {
         &self.title
     }
 
@@ -137,7 +136,7 @@ impl LineFigure {
 
     /// The figure as small pictures need it: the face without what is round it, its lines `bolder` times as wide.
     #[must_use]
-    pub fn close_up(&self, bolder: f64) -> Self {
+    pub(crate) fn close_up(&self, bolder: f64) -> Self {
         let mut figure = self.clone();
         figure.view = self.close;
         figure.pen *= bolder;

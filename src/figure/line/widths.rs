@@ -20,7 +20,7 @@ pub enum Widths {
 impl Widths {
     /// The strokes to be drawn for a line whose control points have these widths.
     #[must_use]
-    pub fn of(self, strokes: &[Ribbon]) -> Vec<Ribbon> {
+    pub(crate) fn of(self, strokes: &[Ribbon]) -> Vec<Ribbon> {
         match self {
             Self::Bezier => strokes.to_vec(),
             Self::Paper => strokes.iter().flat_map(Ribbon::as_in_paper).collect(),

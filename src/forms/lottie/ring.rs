@@ -21,7 +21,7 @@ fn less(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
 
 impl Ring {
     /// The outlines of a path.
-    pub fn of_path(path: &Path) -> Vec<Self> {
+    pub(crate) fn of_path(path: &Path) -> Vec<Self> {
         let mut rings: Vec<Self> = Vec::new();
         for (verb, points) in path.pieces() {
             let (Some(ring), Some(last)) = (rings.last_mut(), points.last()) else {
@@ -66,12 +66,12 @@ impl Ring {
     }
 
     /// How many points it has.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.points.len()
     }
 
     /// As JSON, with as many points as `count`: the last is repeated, and the last of them leads back.
-    pub fn json(&self, count: usize) -> String {
+    pub(crate) fn json(&self, count: usize) -> String {
         let more = count.saturating_sub(self.points.len());
         let last = self.points.last().copied().unwrap_or(NONE);
         let mut points = self.points.clone();

@@ -26,7 +26,7 @@ pub(super) struct Slots {
 
 impl Slot {
     /// All looks of an item.
-    pub fn of_item(item: &OneItem) -> Slots {
+    pub(crate) fn of_item(item: &OneItem) -> Slots {
         let looks: Vec<(Vec<Self>, Option<Self>)> = item.states.iter().map(|marks| look(marks)).collect();
         let keys = keys_of(item);
         let count = looks.iter().map(|l| l.0.len()).max().unwrap_or(0);

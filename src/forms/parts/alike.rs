@@ -10,10 +10,10 @@ use std::sync::Arc;
 use super::mark::{Mark, are_near};
 
 /// The marks of a pose, item by item.
-pub type Looks = Vec<Arc<[Mark]>>;
+pub(crate) type Looks = Vec<Arc<[Mark]>>;
 
 /// For every pose the one that stands for it, by number: itself or one that differs by no more than `steps` of the grid.
-pub fn standing_for(poses: &[Looks], steps: i32) -> Vec<usize> {
+pub(crate) fn standing_for(poses: &[Looks], steps: i32) -> Vec<usize> {
     let mut stands: Vec<usize> = (0..poses.len()).collect();
     // Only what is made of the same can be near.
     let mut made_alike: BTreeMap<Vec<u8>, Vec<(usize, Vec<i32>)>> = BTreeMap::new();

@@ -9,14 +9,14 @@ use crate::drawing::{Anchor, Colour, Item, Raster};
 use crate::geometry::{Affine, BezPath, PathEl, Point, outline};
 
 /// Steps of the grid in a pixel.
-pub const STEPS: f64 = 8.0;
+pub(crate) const STEPS: f64 = 8.0;
 
 /// How far an outline may be from the true one, in units of the figure: as the renderer has it.
 const TOLERANCE: f64 = 0.05;
 
 /// A closed outline, or several: absolute places on the grid.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct Path {
+pub(crate) struct Path {
     /// `M`, `L`, `Q`, `C` with 1, 1, 2 and 3 points, and `Z` with none.
     pub verbs: Box<[u8]>,
     /// The points of the verbs, in order.
@@ -25,7 +25,7 @@ pub struct Path {
 
 /// One thing that is drawn, back to front in a list of them.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Mark {
+pub(crate) enum Mark {
     /// A filled outline, non-zero winding.
     Path {
         /// Its outline.
@@ -73,7 +73,7 @@ pub enum Mark {
 
 /// Pixels that can be told apart.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pixels(pub Raster);
+pub(crate) struct Pixels(pub Raster);
 
 impl Eq for Pixels {}
 
@@ -193,7 +193,7 @@ impl Mark {
 
 impl Path {
     /// A path on the grid; nothing where it is empty.
-    pub fn of(path: &BezPath, place: Affine) -> Option<Self> {
+    pub(crate) fn of(path: &BezPath, place: Affine) -> Option<Self> {
         let mut verbs = Vec::with_capacity(path.elements().len());
         let mut points: Vec<[i32; 2]> = Vec::with_capacity(3 * path.elements().len());
         for element in path.elements() {
@@ -236,7 +236,7 @@ impl Path {
     }
 
     /// The path as curves of the grid.
-    pub fn to_bez(&self) -> BezPath {
+    pub(crate) fn to_bez(&self) -> BezPath {
         let p = |p: &[i32; 2]| Point::new(f64::from(p[0]), f64::from(p[1]));
         let piece = |(verb, points): (u8, &[[i32; 2]])| match (verb, points) {
             (b'M', [a]) => PathEl::MoveTo(p(a)),
@@ -249,7 +249,7 @@ impl Path {
     }
 
     /// The verbs with their points.
-    pub fn pieces(&self) -> impl Iterator<Item = (u8, &[[i32; 2]])> {
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = (u8, &[[i32; 2]])> {
         let mut rest: &[[i32; 2]] = &self.points;
         self.verbs.iter().map(move |verb| {
             let count = match verb {

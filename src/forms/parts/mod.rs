@@ -49,7 +49,7 @@ pub(crate) struct Grid {
 
 impl Grid {
     /// The grid of a figure that is fitted whole into a picture.
-    pub fn new(view: Rect, size: [u32; 2]) -> Self {
+    pub(crate) fn new(view: Rect, size: [u32; 2]) -> Self {
         let frame = Rect::new(0.0, 0.0, f64::from(size[0]), f64::from(size[1]));
         let [scale, _, _, _, x, y] = fit(view, frame).as_coeffs();
         Self { size, origin: [x, y], scale: scale * STEPS }
@@ -108,12 +108,12 @@ pub(crate) struct OneItem {
 
 impl Part {
     /// The marks of a pose, back to front.
-    pub fn marks(&self, pose: u32) -> impl Iterator<Item = &Mark> {
+    pub(crate) fn marks(&self, pose: u32) -> impl Iterator<Item = &Mark> {
         self.poses.get(pose as usize).into_iter().flatten().flat_map(|marks| marks.iter())
     }
 
     /// Whether it looks the same in every frame.
-    pub fn is_still(&self) -> bool {
+    pub(crate) fn is_still(&self) -> bool {
         self.runs.len() <= 1
     }
 }

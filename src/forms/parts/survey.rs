@@ -12,11 +12,11 @@ use crate::drawing::{Drawing, Item};
 use crate::geometry::Affine;
 
 /// In a frame where an item is not there.
-pub const ABSENT: u32 = u32::MAX;
+pub(crate) const ABSENT: u32 = u32::MAX;
 
 /// A turn and a shift, by which a part moves whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub struct Move {
+pub(crate) struct Move {
     /// On the grid.
     pub x: i32,
     /// On the grid.
@@ -27,7 +27,7 @@ pub struct Move {
 
 /// One item over all frames.
 #[derive(Debug)]
-pub struct Tracked {
+pub(crate) struct Tracked {
     /// What the figure calls it.
     pub name: String,
     /// Its different looks, in the order they are first seen. A look may be of several marks, or of none.
@@ -45,7 +45,7 @@ pub struct Tracked {
 
 /// All items over all frames, back to front.
 #[derive(Debug)]
-pub struct Survey {
+pub(crate) struct Survey {
     /// The items.
     pub items: Vec<Tracked>,
     /// The different moves; the first is none.
@@ -64,7 +64,7 @@ pub struct Survey {
 impl Survey {
     /// Nothing yet; `scale` is the grid's steps in a unit of the figure, and looks of an item within `near` steps of each
     /// other are one.
-    pub fn new(scale: f64, near: i32) -> Self {
+    pub(crate) fn new(scale: f64, near: i32) -> Self {
         Self {
             items: Vec::new(),
             moves: vec![Move::default()],
@@ -79,7 +79,7 @@ impl Survey {
     }
 
     /// Takes in the next frame.
-    pub fn take(&mut self, drawing: &Drawing) {
+    pub(crate) fn take(&mut self, drawing: &Drawing) {
         for tracked in &mut self.items {
             tracked.at.push(ABSENT);
             tracked.moved.push(ABSENT);
@@ -94,7 +94,7 @@ impl Survey {
     }
 
     /// Takes in a frame that looks like the one before.
-    pub fn repeat(&mut self) {
+    pub(crate) fn repeat(&mut self) {
         for tracked in &mut self.items {
             let last = |list: &[u32]| list.last().copied().unwrap_or(ABSENT);
             let (at, moved) = (last(&tracked.at), last(&tracked.moved));
@@ -105,7 +105,7 @@ impl Survey {
     }
 
     /// The items, back to front, when all frames are in.
-    pub fn done(mut self) -> (Vec<Tracked>, Vec<Move>) {
+    pub(crate) fn done(mut self) -> (Vec<Tracked>, Vec<Move>) {
         let mut items: Vec<Option<Tracked>> = self.items.drain(..).map(Some).collect();
         (self.order.iter().filter_map(|id| items[*id].take()).collect(), self.moves)
     }

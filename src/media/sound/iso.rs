@@ -27,7 +27,7 @@ pub(super) struct Index {
 
 impl Index {
     /// Finds it; nothing where there is none, as in a recording that was never finished.
-    pub fn find(file: &mut File) -> std::io::Result<Option<Self>> {
+    pub(crate) fn find(file: &mut File) -> std::io::Result<Option<Self>> {
         let end = file.metadata()?.len();
         let mut at = 0;
         while at + 8 <= end {
@@ -47,7 +47,7 @@ impl Index {
     }
 
     /// What is to be played of the track of that number; nothing where the file does not say.
-    pub fn edit(&self, track: u32, rate: u32) -> Option<Edit> {
+    pub(crate) fn edit(&self, track: u32, rate: u32) -> Option<Edit> {
         let movie_scale = inside(&self.moov, b"mvhd").and_then(|mvhd| scale(mvhd, 12));
         let listed = boxes(&self.moov).filter(|(name, _)| name == b"trak").map(|(_, trak)| trak).find(|trak| {
             let number =

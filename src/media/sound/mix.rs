@@ -26,7 +26,7 @@ pub(super) struct Mixed {
 
 impl Mixer {
     /// For frames of `channels` samples, at least 1; `frames` of them are expected.
-    pub fn new(channels: usize, only: Option<usize>, frames: usize) -> Self {
+    pub(crate) fn new(channels: usize, only: Option<usize>, frames: usize) -> Self {
         let channels = channels.max(1);
         Self {
             channels,
@@ -40,17 +40,17 @@ impl Mixer {
     }
 
     /// How many frames there are.
-    pub fn frames(&self) -> usize {
+    pub(crate) fn frames(&self) -> usize {
         self.mixed.len()
     }
 
     /// How many channels there are.
-    pub fn channels(&self) -> usize {
+    pub(crate) fn channels(&self) -> usize {
         self.channels
     }
 
     /// Takes the next sample: of the first channel, the second and so on, then of the first again.
-    pub fn push(&mut self, sample: f64) {
+    pub(crate) fn push(&mut self, sample: f64) {
         let sample = if sample.is_finite() {
             sample
         } else {
@@ -71,24 +71,24 @@ impl Mixer {
     }
 
     /// Takes frames of silence.
-    pub fn silence(&mut self, frames: usize) {
+    pub(crate) fn silence(&mut self, frames: usize) {
         self.mixed.resize(self.mixed.len() + frames, 0.0);
     }
 
     /// Puts frames of silence before the frame at a place.
-    pub fn insert(&mut self, at: usize, frames: usize) {
+    pub(crate) fn insert(&mut self, at: usize, frames: usize) {
         let at = at.min(self.mixed.len());
         self.mixed.splice(at..at, std::iter::repeat_n(0.0, frames));
     }
 
     /// Drops `start` frames from the beginning, and all beyond `length` after them.
-    pub fn trim(&mut self, start: usize, length: Option<usize>) {
+    pub(crate) fn trim(&mut self, start: usize, length: Option<usize>) {
         self.mixed.drain(..start.min(self.mixed.len()));
         self.mixed.truncate(length.unwrap_or(usize::MAX));
     }
 
     /// What has been mixed, brought into −1 to 1 where it goes beyond.
-    pub fn done(mut self) -> Mixed {
+    pub(crate) fn done(mut self) -> Mixed {
         let highest = self.mixed.iter().fold(1.0_f32, |highest, s| highest.max(s.abs()));
         if highest > 1.0 {
             self.mixed.iter_mut().for_each(|s| *s /= highest);
@@ -103,7 +103,7 @@ impl Mixer {
 impl Mixed {
     /// The channel to take alone where the channels are each other turned upside down, so that little is left of their
     /// mean: less than a tenth of what unlike channels leave.
-    pub fn cancelled(&self) -> Option<usize> {
+    pub(crate) fn cancelled(&self) -> Option<usize> {
         let count = self.sides.len();
         let all: f64 = self.sides.iter().map(|side| side * side).sum();
         let scale = f64::from(self.highest).powi(2) / self.samples.len().max(1) as f64;

@@ -21,8 +21,8 @@ use std::sync::OnceLock;
 use peaks::Pyramid;
 
 pub(crate) use decimate::decimated;
-pub use resample::Resampled;
-pub use wav_writer::write_wav;
+pub(crate) use resample::Resampled;
+pub(crate) use wav_writer::write_wav;
 
 use crate::disk::Result;
 
@@ -104,7 +104,7 @@ impl Sound {
 
     /// The same in parts, for what need not be in memory as a whole.
     #[must_use]
-    pub fn resampling(&self, rate: u32) -> Resampled<'_> {
+    pub(crate) fn resampling(&self, rate: u32) -> Resampled<'_> {
         Resampled::new(&self.samples, self.rate, rate)
     }
 }

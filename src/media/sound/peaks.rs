@@ -11,7 +11,7 @@ pub(super) struct Pyramid {
 }
 
 impl Pyramid {
-    pub fn new(samples: &[f32]) -> Self {
+    pub(crate) fn new(samples: &[f32]) -> Self {
         let mut levels = Vec::new();
         let mut level: Vec<(f32, f32)> =
             samples.chunks(FAN).map(|c| c.iter().fold(NOTHING, |so_far, s| with(so_far, (*s, *s)))).collect();
@@ -25,7 +25,7 @@ impl Pyramid {
 
     /// The lowest and highest of the samples from `from` up to but not including `to`; (0, 0) where there are none.
     /// `samples` are those the pyramid was built from.
-    pub fn between(&self, samples: &[f32], from: usize, to: usize) -> (f32, f32) {
+    pub(crate) fn between(&self, samples: &[f32], from: usize, to: usize) -> (f32, f32) {
         let (mut from, mut to) = (from.min(samples.len()), to.min(samples.len()));
         let mut found = NOTHING;
         // What does not fill a block of the level above is looked at one by one, and the rest one level up.

@@ -22,7 +22,7 @@ const LANES: usize = 16;
 
 /// The samples of a sound at another rate, made part by part as they are asked for: the same whatever the parts.
 #[derive(Debug)]
-pub struct Resampled<'a> {
+pub(crate) struct Resampled<'a> {
     samples: &'a [f32],
     /// Samples there are at the new rate.
     count: usize,
@@ -47,19 +47,13 @@ impl<'a> Resampled<'a> {
 
     /// How many samples there are.
     #[must_use]
-    pub const fn len(&self) -> usize {
+    pub(crate) const fn len(&self) -> usize {
         self.count
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.count == 0
     }
 
     /// The samples of a range, by their numbers at the new rate. Beyond the last of them there is nothing.
     #[must_use]
-    pub fn part(&self, range: Range<usize>) -> Vec<f32> {
+    pub(crate) fn part(&self, range: Range<usize>) -> Vec<f32> {
         let range = range.start.min(self.count)..range.end.min(self.count);
         let Some(bank) = &self.bank else { return self.samples.get(range).unwrap_or_default().to_vec() };
         let mut edge = vec![0.0; bank.taps];

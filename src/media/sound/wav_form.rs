@@ -28,7 +28,7 @@ impl Form {
     ///
     /// # Errors
     /// Where it is cut off, says what cannot be, or a form that nobody reads.
-    pub fn of(bytes: &[u8]) -> Result<Option<Self>> {
+    pub(crate) fn of(bytes: &[u8]) -> Result<Option<Self>> {
         let number = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
         if bytes.len() < 16 {
             return Err(Fault::new("the file does not say how its samples are written")
@@ -62,12 +62,12 @@ impl Form {
     }
 
     /// Bytes of one sample of every channel.
-    pub fn frame(&self) -> u64 {
+    pub(crate) fn frame(&self) -> u64 {
         u64::from(self.container) * u64::from(self.channels)
     }
 
     /// Hands on every whole sample, full at −1 and 1.
-    pub fn samples(&self, mut source: impl Read, mut each: impl FnMut(f64)) -> std::io::Result<()> {
+    pub(crate) fn samples(&self, mut source: impl Read, mut each: impl FnMut(f64)) -> std::io::Result<()> {
         let width = usize::from(self.container);
         let mut bytes = vec![0; 4096 * width];
         let mut held = 0;

@@ -13,7 +13,11 @@ const MOST: usize = (u32::MAX as usize - 36) / 2;
 ///
 /// # Errors
 /// When it cannot be written, or the samples are more than a WAV file can hold.
-pub fn write_wav<B: AsRef<[i16]>>(to: impl Write + Seek, rate: u32, blocks: impl IntoIterator<Item = B>) -> Result<()> {
+pub(crate) fn write_wav<B: AsRef<[i16]>>(
+    to: impl Write + Seek,
+    rate: u32,
+    blocks: impl IntoIterator<Item = B>,
+) -> Result<()> {
     let spec = WavSpec { channels: 1, sample_rate: rate, bits_per_sample: 16, sample_format: SampleFormat::Int };
     let mut wav = WavWriter::new(to, spec).map_err(of_writing)?;
     let mut count = 0;

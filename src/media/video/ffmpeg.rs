@@ -24,7 +24,7 @@ const BEFORE: f64 = 10.0;
 impl Ffmpeg {
     /// The one on the PATH, where there is one.
     #[must_use]
-    pub fn on_path() -> Option<Self> {
+    pub(crate) fn on_path() -> Option<Self> {
         Program::find("ffmpeg").map(|program| Self { program })
     }
 
@@ -49,7 +49,7 @@ impl Ffmpeg {
 
     /// The executable file.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         self.program.path()
     }
 
@@ -57,14 +57,19 @@ impl Ffmpeg {
     ///
     /// # Errors
     /// When the system cannot start it.
-    pub fn start(&self, level: &str, arguments: impl IntoIterator<Item = OsString>, pipe: Pipe) -> io::Result<Running> {
+    pub(crate) fn start(
+        &self,
+        level: &str,
+        arguments: impl IntoIterator<Item = OsString>,
+        pipe: Pipe,
+    ) -> io::Result<Running> {
         let common = ["-nostdin", "-hide_banner", "-loglevel", level].map(OsString::from);
         self.program.start(common.into_iter().chain(arguments), pipe)
     }
 
     /// The argument that names a file.
     #[must_use]
-    pub fn file(path: &Path) -> OsString {
+    pub(crate) fn file(path: &Path) -> OsString {
         let mut argument = OsString::from("file:");
         argument.push(path);
         argument
@@ -120,7 +125,7 @@ impl Reading {
     }
 
     /// The stream of frames that it writes.
-    pub fn stream(&mut self) -> Result<Y4m<BufReader<ChildStdout>>> {
+    pub(crate) fn stream(&mut self) -> Result<Y4m<BufReader<ChildStdout>>> {
         match Y4m::new(self.output()?) {
             Ok(stream) => Ok(stream),
             // Its own messages are nearer to the cause.
@@ -132,7 +137,7 @@ impl Reading {
     ///
     /// # Errors
     /// When it failed, with its last messages.
-    pub fn ended(&mut self) -> Result<String> {
+    pub(crate) fn ended(&mut self) -> Result<String> {
         let ended = self.running.ended().map_err(|e| Fault::io("ffmpeg cannot be waited for", &self.video, e))?;
         if ended.status.success() {
             return Ok(ended.messages.text().to_owned());
@@ -146,7 +151,7 @@ impl Reading {
     }
 
     /// Ends it before its time.
-    pub fn stop(&mut self) {
+    pub(crate) fn stop(&mut self) {
         self.running.stop();
     }
 }

@@ -140,13 +140,13 @@ impl Source {
 
     /// What there is to say of it to its author.
     #[must_use]
-    pub fn notes(&self) -> &[String] {
+    pub(crate) fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// The folder or the file.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match &self.kind {
             Kind::Pictures(path, _) | Kind::Plain(path, _) | Kind::Video(path, _) => path,
         }
@@ -154,7 +154,7 @@ impl Source {
 
     /// The pictures of a folder, in order; none of a file.
     #[must_use]
-    pub fn files(&self) -> &[PathBuf] {
+    pub(crate) fn files(&self) -> &[PathBuf] {
         match &self.kind {
             Kind::Pictures(_, paths) => paths,
             Kind::Plain(..) | Kind::Video(..) => &[],

@@ -37,7 +37,7 @@ enum Chroma {
 
 /// What a stream says of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Head {
+pub(crate) struct Head {
     width: usize,
     height: usize,
     fps: f64,

@@ -41,7 +41,7 @@ impl Change {
 
     /// The change that takes it back.
     #[must_use]
-    pub fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         Self { label: self.label.clone(), edits: self.edits.iter().rev().map(Edit::inverse).collect() }
     }
 }
@@ -49,7 +49,7 @@ impl Change {
 impl Edit {
     /// The edit that takes it back.
     #[must_use]
-    pub fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         match self {
             Self::Clip(number, edit) => Self::Clip(*number, edit.inverse()),
             Self::Face(number, edit) => Self::Face(*number, edit.inverse()),

@@ -100,7 +100,7 @@ pub enum ClipEdit {
 impl ClipEdit {
     /// The edit that takes it back.
     #[must_use]
-    pub fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         match self.clone() {
             Self::Times { first, before, after } => Self::Times { first, before: after, after: before },
             Self::Timing { before, after } => Self::Timing { before: after, after: before },

@@ -52,7 +52,7 @@ fn neutral() -> Emotion {
 impl FaceEdit {
     /// The edit that takes it back.
     #[must_use]
-    pub fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         match self.clone() {
             Self::Point { shot, point, before, after } => Self::Point { shot, point, before: after, after: before },
             Self::Face { before, after } => Self::Face { before: after, after: before },

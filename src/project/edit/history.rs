@@ -15,13 +15,13 @@ pub struct History {
 impl History {
     /// The changes made, oldest first.
     #[must_use]
-    pub fn done(&self) -> &[Change] {
+    pub(crate) fn done(&self) -> &[Change] {
         &self.done
     }
 
     /// The changes taken back, the one to be made again next at the end.
     #[must_use]
-    pub fn undone(&self) -> &[Change] {
+    pub(crate) fn undone(&self) -> &[Change] {
         &self.undone
     }
 

@@ -183,7 +183,7 @@ impl Lesson {
 
     /// Which nine mouth shapes a clip's face has.
     #[must_use]
-    pub fn mouths_of(&self, clip: &ClipEntry) -> MouthPreset {
+    pub(crate) fn mouths_of(&self, clip: &ClipEntry) -> MouthPreset {
         self.manifest.face_of(clip).map(|f| f.mouths).unwrap_or_default()
     }
 

@@ -31,7 +31,7 @@ impl Lesson {
     }
 
     /// Gives a clip what was found in its video, in memory only: for an export of a lesson that was never tracked.
-    pub fn take_tracked(&mut self, number: usize, tracked: Tracked, checksum: &str) {
+    pub(crate) fn take_tracked(&mut self, number: usize, tracked: Tracked, checksum: &str) {
         if let Some(clip) = self.clips.get_mut(number) {
             clip.score.tracked = Some(with_sum(checksum, &tracked.record.to_csv()));
             clip.record = Some(tracked.record);

@@ -27,7 +27,7 @@ impl Unsaved {
 
     /// The remark on them; none where there are none.
     #[must_use]
-    pub fn note(self) -> Option<Message> {
+    pub(crate) fn note(self) -> Option<Message> {
         if self.changes == 0 {
             return None;
         }

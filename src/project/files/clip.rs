@@ -20,9 +20,6 @@ use crate::speech::Pin;
 use crate::timeline::{Score, Sources, Spoken, Timeline};
 use crate::timing::{self, Format, Interval, Tier, Timing};
 
-/// The longest label that is kept, in characters.
-pub const LABEL_LIMIT: usize = 100;
-
 /// A clip in memory. Edits change `timing` and `score`; the rest is as the files have it.
 #[derive(Debug, Clone)]
 pub struct Clip {
@@ -83,7 +80,7 @@ impl Clip {
     ///
     /// # Errors
     /// When one of its files is damaged, or the times do not fit the script.
-    pub fn read(root: &Path, entry: &ClipEntry, pending: &Pending) -> Result<Self> {
+    pub(crate) fn read(root: &Path, entry: &ClipEntry, pending: &Pending) -> Result<Self> {
         Self::read_as(root, entry, pending, None)
     }
 
@@ -288,7 +285,7 @@ impl Clip {
 
     /// The syllables whose times are the author's.
     #[must_use]
-    pub fn pins(&self) -> Vec<Pin> {
+    pub(crate) fn pins(&self) -> Vec<Pin> {
         let own = self.score.pins.iter().filter_map(|p| {
             let interval = self.intervals().get(*p)?;
             Some(Pin { syllable: *p, start: interval.start, end: interval.end })
@@ -331,7 +328,7 @@ impl Clip {
 
     /// What is said as the timeline takes it: from the tier `shapes` where there is one, else from the syllables.
     #[must_use]
-    pub fn spoken(&self, onsets: OnsetPreset) -> Vec<Spoken> {
+    pub(crate) fn spoken(&self, onsets: OnsetPreset) -> Vec<Spoken> {
         if let Some(tier) = self.timing.tier("shapes") {
             return of_shapes(tier);
         }
@@ -384,7 +381,7 @@ impl Clip {
 
     /// The clip's score, built.
     #[must_use]
-    pub fn timeline(&self, fps: f64, mouths: MouthPreset) -> Timeline {
+    pub(crate) fn timeline(&self, fps: f64, mouths: MouthPreset) -> Timeline {
         let spoken = self.spoken(self.entry.onsets);
         Timeline::build(&Sources {
             duration: self.duration(),

@@ -11,13 +11,13 @@ impl Clip {
     ///
     /// # Errors
     /// When it cannot be opened.
-    pub fn source(&self) -> Result<Option<Source>> {
+    pub(crate) fn source(&self) -> Result<Option<Source>> {
         self.video.as_ref().map(|path| Source::of(path, self.video_fps())).transpose()
     }
 
     /// Frames a second of its video, where that is a folder of pictures.
     #[must_use]
-    pub fn video_fps(&self) -> f64 {
+    pub(crate) fn video_fps(&self) -> f64 {
         self.entry.video_fps.unwrap_or(FRAMES_FPS)
     }
 
@@ -35,13 +35,13 @@ impl Clip {
 
     /// Whether the face in its video is still to be followed: it never was, or what was found is gone.
     #[must_use]
-    pub fn wants_tracking(&self) -> bool {
+    pub(crate) fn wants_tracking(&self) -> bool {
         self.video.is_some() && self.record.is_none()
     }
 
     /// Whether a record was found in its video that is not there any more.
     #[must_use]
-    pub fn lost_its_record(&self) -> bool {
+    pub(crate) fn lost_its_record(&self) -> bool {
         self.record.is_none() && self.score.tracked.is_some()
     }
 }

@@ -45,7 +45,7 @@ impl LessonFace {
     ///
     /// # Errors
     /// When its `face.toml` is damaged, or a name leads out of the project.
-    pub fn read(root: &Path, entry: &FaceEntry, pending: &Pending) -> Result<Self> {
+    pub(crate) fn read(root: &Path, entry: &FaceEntry, pending: &Pending) -> Result<Self> {
         let folder = inside(root, &format!("faces/{}", entry.name))?;
         let mut photo = None;
         for name in NEUTRAL {
@@ -76,13 +76,13 @@ impl LessonFace {
 
     /// Whether the face has points to draw a cartoon from.
     #[must_use]
-    pub fn has_cartoon(&self) -> bool {
+    pub(crate) fn has_cartoon(&self) -> bool {
         self.face.is_some()
     }
 
     /// Whether its cartoon is drawn from points that are in no file.
     #[must_use]
-    pub fn looks_each_time(&self) -> bool {
+    pub(crate) fn looks_each_time(&self) -> bool {
         self.face.is_none() && self.photo.is_some() && self.entry.figure.as_deref() == Some("cartoon")
     }
 
@@ -90,7 +90,7 @@ impl LessonFace {
     ///
     /// # Errors
     /// When its photo cannot be read, or no face is found in it.
-    pub fn points(&self) -> Result<Option<Cow<'_, Face>>> {
+    pub(crate) fn points(&self) -> Result<Option<Cow<'_, Face>>> {
         match (&self.face, &self.photo) {
             (Some(face), _) => Ok(Some(Cow::Borrowed(face))),
             (None, None) => Ok(None),
@@ -104,7 +104,7 @@ impl LessonFace {
 
     /// Where its points are written.
     #[must_use]
-    pub fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.folder.join(FACE_FILE)
     }
 

@@ -129,7 +129,7 @@ impl Manifest {
     ///
     /// # Errors
     /// With file and line, what was found and what is allowed.
-    pub fn read(root: &Path) -> Result<Self> {
+    pub(crate) fn read(root: &Path) -> Result<Self> {
         confine(root);
         let path = root.join(MANIFEST);
         if !path.is_file() {
@@ -150,7 +150,7 @@ impl Manifest {
     ///
     /// # Errors
     /// With the line, what was found and what is allowed.
-    pub fn parse(text: &str) -> Result<Self> {
+    pub(crate) fn parse(text: &str) -> Result<Self> {
         let file: File = from_toml(text)?;
         let line = |span: std::ops::Range<usize>| 1 + text[..span.start.min(text.len())].matches('\n').count();
         if file.format != FORMAT {
@@ -206,7 +206,7 @@ impl Manifest {
 
     /// The text of the manifest.
     #[must_use]
-    pub fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         use std::fmt::Write;
         let quoted = |s: &str| toml::Value::String(s.to_owned()).to_string();
         let mut out = format!("format = {FORMAT}\ntitle = {}\n", quoted(&self.title));
@@ -223,7 +223,7 @@ impl Manifest {
 
     /// The face that a clip has: the one it names, else the only one, else none (and the line face is drawn).
     #[must_use]
-    pub fn face_of(&self, clip: &ClipEntry) -> Option<&FaceEntry> {
+    pub(crate) fn face_of(&self, clip: &ClipEntry) -> Option<&FaceEntry> {
         match &clip.face {
             Some(name) => self.faces.iter().find(|f| f.name == *name),
             None => self.faces.first(),

@@ -14,7 +14,7 @@ mod shots;
 mod tiers;
 mod times;
 
-pub use clip::{Clip, LABEL_LIMIT, read_script};
+pub use clip::{Clip, read_script};
 pub use face::LessonFace;
 pub(super) use figures::{cartoon, figure, layer};
 pub(super) use import::{Brought, copy_video, frame_of, write_face};

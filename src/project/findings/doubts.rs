@@ -107,7 +107,7 @@ impl Clip {
 
     /// What there is to look at, in words.
     #[must_use]
-    pub fn told(&self, doubt: &Doubt) -> String {
+    pub(crate) fn told(&self, doubt: &Doubt) -> String {
         let sure = 100.0 * doubt.confidence;
         let syllable = doubt.syllable.and_then(|i| self.syllables.get(i));
         let name = syllable.map_or_else(String::new, |s| format!("{} {}", s.text, s.pinyin).trim_end().to_owned());
@@ -124,7 +124,7 @@ impl Clip {
 
     /// Everything that an author should look at, by rising time.
     #[must_use]
-    pub fn to_look_at(&self) -> Vec<Doubt> {
+    pub(crate) fn to_look_at(&self) -> Vec<Doubt> {
         let mut all = self.doubts();
         all.extend(self.lost());
         all.sort_by(|a, b| a.start.total_cmp(&b.start));

@@ -116,7 +116,7 @@ impl Lesson {
     }
 
     /// Gives a clip the times that were found, in memory only: for an export of a lesson that has never been aligned.
-    pub fn take_alignment(&mut self, number: usize, alignment: &Alignment) {
+    pub(crate) fn take_alignment(&mut self, number: usize, alignment: &Alignment) {
         if let Some(clip) = self.clips.get_mut(number) {
             clip.timing = timing_of(clip, alignment);
             clip.score.aligned = clip.fingerprint();

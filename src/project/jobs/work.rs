@@ -91,7 +91,7 @@ impl Lesson {
 
     /// The clips with a recording and a script, by number.
     #[must_use]
-    pub fn spoken_clips(&self) -> Vec<usize> {
+    pub(crate) fn spoken_clips(&self) -> Vec<usize> {
         let spoken = |c: &Clip| c.sound.is_some() && !c.syllables.is_empty();
         self.clips.iter().enumerate().filter(|(_, c)| spoken(c)).map(|(n, _)| n).collect()
     }
@@ -228,7 +228,7 @@ impl Clip {
     /// What an author should know of an alignment of this clip: the flaws of its recording, and where sound and script
     /// part. Each with its time in seconds; `None` where it concerns the clip as a whole.
     #[must_use]
-    pub fn alignment_notes(&self, found: &Alignment) -> Vec<(Option<f64>, Message)> {
+    pub(crate) fn alignment_notes(&self, found: &Alignment) -> Vec<(Option<f64>, Message)> {
         let mut notes: Vec<(Option<f64>, Message)> = Vec::new();
         if let Some(sound) = &self.sound {
             let flaws = sound.warnings.iter().cloned().chain(sound.quality().remarks());

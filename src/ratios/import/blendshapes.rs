@@ -114,7 +114,7 @@ pub(super) struct Reader {
 
 impl Reader {
     /// For a clip of these frames: what none of them tells, does not count.
-    pub fn of<'a>(frames: impl Iterator<Item = &'a Shapes>) -> Result<Self> {
+    pub(crate) fn of<'a>(frames: impl Iterator<Item = &'a Shapes>) -> Result<Self> {
         let mut seen = vec![false; FEATURES.len()];
         for shapes in frames {
             for (seen, feature) in seen.iter_mut().zip(FEATURES.iter()) {
@@ -143,7 +143,7 @@ impl Reader {
         Ok(Self { decomposition: weighed.apart_from(&speech, NOISE)?, unseen })
     }
 
-    pub fn ratios(&self, shapes: &Shapes) -> Ratios {
+    pub(crate) fn ratios(&self, shapes: &Shapes) -> Ratios {
         let values: Vec<Point> = FEATURES.iter().map(|f| Point::new(value(shapes, &f.name), 0.0)).collect();
         self.decomposition.read(&values, Choice::NonNegative).ratios
     }

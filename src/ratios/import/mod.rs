@@ -23,7 +23,7 @@ use frame::Seen;
 
 /// What a file of ratios is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// `ratios.csv`.
     Csv,
     /// The same as JSON.
@@ -41,7 +41,7 @@ pub enum Kind {
 impl Kind {
     /// What it is, by its beginning (some kilobytes do); none where it is none of these.
     #[must_use]
-    pub fn of(bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn of(bytes: &[u8]) -> Option<Self> {
         if is_lpr(bytes) {
             return Some(Self::Lpr);
         }
@@ -68,7 +68,7 @@ impl Kind {
 ///
 /// # Errors
 /// When it cannot be read, is no such file, or has points alone.
-pub fn read(path: &Path) -> Result<(Record, Option<Tracks>, Vec<String>)> {
+pub(crate) fn read(path: &Path) -> Result<(Record, Option<Tracks>, Vec<String>)> {
     read_with(path, None)
 }
 
@@ -76,7 +76,10 @@ pub fn read(path: &Path) -> Result<(Record, Option<Tracks>, Vec<String>)> {
 ///
 /// # Errors
 /// When it cannot be read, or is no such file; or has points alone, and no calibration is given or it does not fit them.
-pub fn read_with(path: &Path, calibration: Option<&Calibration>) -> Result<(Record, Option<Tracks>, Vec<String>)> {
+pub(crate) fn read_with(
+    path: &Path,
+    calibration: Option<&Calibration>,
+) -> Result<(Record, Option<Tracks>, Vec<String>)> {
     let bytes = disk::read_bytes(path, MAX_TEXT_BYTES)?;
     parse(&bytes, calibration).map_err(|fault| fault.at(path))
 }
@@ -85,7 +88,7 @@ pub fn read_with(path: &Path, calibration: Option<&Calibration>) -> Result<(Reco
 ///
 /// # Errors
 /// As [`read_with`].
-pub fn parse(bytes: &[u8], calibration: Option<&Calibration>) -> Result<(Record, Option<Tracks>, Vec<String>)> {
+pub(crate) fn parse(bytes: &[u8], calibration: Option<&Calibration>) -> Result<(Record, Option<Tracks>, Vec<String>)> {
     let Some(kind) = Kind::of(bytes) else {
         return Err(Fault::of(FileFault::Unsupported, "this is no ratio record, nor a face tracker's file that is known").help(
             "known are ratios.csv, JSON of the same columns, .lpr, OpenFace CSV, mediapipe JSON, ARKit blendshapes as CSV",

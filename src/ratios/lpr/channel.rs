@@ -17,7 +17,7 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    pub fn new(last: i64) -> Self {
+    pub(crate) fn new(last: i64) -> Self {
         Self { last, changes: [0; 2], still: Box::new([[Bit::NEW; ALL]; OWN]), down: [Bit::NEW; 3] }
     }
 }
@@ -30,7 +30,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    pub fn new(first: &[i64]) -> Self {
+    pub(crate) fn new(first: &[i64]) -> Self {
         Self { channels: first.iter().map(|v| Channel::new(*v)).collect(), sizes: Box::new([[Bit::NEW; 15]; OWN]) }
     }
 
@@ -49,7 +49,7 @@ impl Group {
     }
 
     /// What it would cost to write values to each channel, in 256ths of a bit.
-    pub fn costs(&self, values: &[Vec<i64>]) -> Vec<Vec<u32>> {
+    pub(crate) fn costs(&self, values: &[Vec<i64>]) -> Vec<Vec<u32>> {
         let busy = self.busy();
         let of = |at: usize, value: i64| {
             let (channel, (own, all)) = (&self.channels[at], busy[at]);
@@ -69,7 +69,7 @@ impl Group {
     }
 
     /// Writes or reads a value of every channel.
-    pub fn code(&mut self, coder: &mut impl Coder, values: &[i64]) {
+    pub(crate) fn code(&mut self, coder: &mut impl Coder, values: &[i64]) {
         for (at, (own, all)) in self.busy().into_iter().enumerate() {
             let channel = &mut self.channels[at];
             let wanted = values.get(at).map_or(0, |v| v.saturating_sub(channel.last));

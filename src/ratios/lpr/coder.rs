@@ -49,17 +49,17 @@ pub(super) struct Encoder {
 }
 
 impl Encoder {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { low: 0, range: u32::MAX, out: Vec::new() }
     }
 
     /// How many bytes there are by now.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.out.len()
     }
 
     /// The payload: the number within the last interval that has the most zeros at its end, which need not be written.
-    pub fn finish(mut self) -> Vec<u8> {
+    pub(crate) fn finish(mut self) -> Vec<u8> {
         let last = u64::from(self.low) + u64::from(self.range) - 1;
         let round = |zeros: u32| (u64::from(self.low) + (1_u64 << zeros) - 1) >> zeros << zeros;
         let value = (0..=32).rev().map(round).find(|v| *v <= last).unwrap_or(u64::from(self.low));
@@ -116,7 +116,7 @@ pub(super) struct Decoder {
 }
 
 impl Decoder {
-    pub fn new(bytes: Vec<u8>) -> Self {
+    pub(crate) fn new(bytes: Vec<u8>) -> Self {
         let mut new = Self { code: 0, range: u32::MAX, bytes, at: 0 };
         for _ in 0..4 {
             new.next();

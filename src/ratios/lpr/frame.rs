@@ -38,7 +38,7 @@ pub(super) struct State {
 }
 
 impl State {
-    pub fn new(fps: f64, with_tracks: bool) -> Self {
+    pub(crate) fn new(fps: f64, with_tracks: bool) -> Self {
         Self {
             fps,
             with_tracks,
@@ -58,16 +58,12 @@ impl State {
         }
     }
 
-    pub fn has_tracks(&self) -> bool {
-        self.with_tracks
-    }
-
-    pub fn fps(&self) -> f64 {
+    pub(crate) fn fps(&self) -> f64 {
         self.fps
     }
 
     /// The last frame's number; none before the first.
-    pub fn last(&self) -> Option<u32> {
+    pub(crate) fn last(&self) -> Option<u32> {
         u32::try_from(self.frame).ok()
     }
 
@@ -75,7 +71,7 @@ impl State {
     ///
     /// # Errors
     /// When numbers or times do not rise, or something is not finite or absurdly large.
-    pub fn check(&self, moment: &Moment) -> Result<()> {
+    pub(crate) fn check(&self, moment: &Moment) -> Result<()> {
         let row = &moment.row;
         let fault = |what: String| Err(Fault::new(format!("frame {}: {what}", row.frame)));
         if i64::from(row.frame) <= self.frame {
@@ -93,7 +89,7 @@ impl State {
     }
 
     /// Writes a frame that was [checked](Self::check).
-    pub fn write(&mut self, to: &mut Encoder, moment: &Moment) {
+    pub(crate) fn write(&mut self, to: &mut Encoder, moment: &Moment) {
         let row = &moment.row;
         to.whole(&mut self.gap, (i64::from(row.frame) - self.frame - 1).max(0).unsigned_abs());
         let late = (row.time * 1e6).round() as i64 - self.beat(i64::from(row.frame));
@@ -120,7 +116,7 @@ impl State {
     }
 
     /// Reads a frame; none where it cannot be one.
-    pub fn read(&mut self, from: &mut Decoder) -> Option<Moment> {
+    pub(crate) fn read(&mut self, from: &mut Decoder) -> Option<Moment> {
         let gap = i64::try_from(from.whole(&mut self.gap, 0)).ok()?;
         self.frame = self.frame.checked_add(gap)?.checked_add(1)?;
         let frame = u32::try_from(self.frame).ok()?;
@@ -174,7 +170,7 @@ impl State {
     }
 
     /// Whether another frame follows in the packet.
-    pub fn more(&mut self, coder: &mut impl Coder, more: bool) -> bool {
+    pub(crate) fn more(&mut self, coder: &mut impl Coder, more: bool) -> bool {
         coder.bit(&mut self.more, more)
     }
 

@@ -53,15 +53,15 @@ pub(super) struct Bit {
 }
 
 impl Bit {
-    pub const NEW: Self = Self { fast: 0x8000, slow: 0x8000, count: 0 };
+    pub(crate) const NEW: Self = Self { fast: 0x8000, slow: 0x8000, count: 0 };
 
     /// The probability of a 0, in 65536ths: never none and never all.
-    pub fn zero(self) -> u32 {
+    pub(crate) fn zero(self) -> u32 {
         ((u32::from(self.fast) + u32::from(self.slow)) >> 1).clamp(32, 65_504)
     }
 
     /// Learns of a decision.
-    pub fn learn(&mut self, one: bool) {
+    pub(crate) fn learn(&mut self, one: bool) {
         let target = if one { 0 } else { 65_535 };
         let n = usize::from(self.count);
         let near = |now: u16, most: usize| {
@@ -74,7 +74,7 @@ impl Bit {
     }
 
     /// What a decision would cost, in 256ths of a bit.
-    pub fn cost(self, one: bool) -> u32 {
+    pub(crate) fn cost(self, one: bool) -> u32 {
         let zero = self.zero();
         COSTS[(if one { 65_536 - zero } else { zero } >> 8) as usize & 0xFF]
     }

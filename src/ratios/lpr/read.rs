@@ -68,20 +68,8 @@ impl<R: Read> LprReader<R> {
 
     /// Frames a second.
     #[must_use]
-    pub fn fps(&self) -> f64 {
+    pub(crate) fn fps(&self) -> f64 {
         self.state.fps()
-    }
-
-    /// Whether frames may have tracks.
-    #[must_use]
-    pub fn has_tracks(&self) -> bool {
-        self.state.has_tracks()
-    }
-
-    /// How many frames were read.
-    #[must_use]
-    pub fn frames(&self) -> u64 {
-        self.frames
     }
 
     /// The next frame; waits for it where it has not arrived. None at the end, and after a fault.

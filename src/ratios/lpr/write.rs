@@ -72,7 +72,7 @@ impl<W: Write> LprWriter<W> {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn flush(&mut self) -> Result<()> {
+    pub(crate) fn flush(&mut self) -> Result<()> {
         if self.open == 0 {
             return Ok(());
         }

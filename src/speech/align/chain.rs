@@ -30,7 +30,7 @@ pub struct Chain {
 impl Chain {
     /// Of a script. A syllable without a reading is any voice.
     #[must_use]
-    pub fn of(script: &[Syllable]) -> Self {
+    pub(crate) fn of(script: &[Syllable]) -> Self {
         let mut chain = Self::default();
         for (number, syllable) in script.iter().enumerate() {
             let from = chain.links.len();
@@ -49,7 +49,7 @@ impl Chain {
 
     /// The same syllables the other way round.
     #[must_use]
-    pub fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         let mut chain = Self::default();
         for (number, links) in self.syllables.iter().rev().enumerate() {
             let from = chain.links.len();
@@ -62,20 +62,20 @@ impl Chain {
 
     /// Whether a syllable sounds otherwise than the one at its place in another chain.
     #[must_use]
-    pub fn differs(&self, other: &Self, syllable: usize) -> bool {
+    pub(crate) fn differs(&self, other: &Self, syllable: usize) -> bool {
         let units = |c: &Self| c.links[c.syllables[syllable].clone()].iter().map(|l| l.unit).collect::<Vec<_>>();
         units(self) != units(other)
     }
 
     /// How long a stretch of it usually lasts, in seconds, at the usual rate.
     #[must_use]
-    pub fn usual(&self, links: Range<usize>) -> f64 {
+    pub(crate) fn usual(&self, links: Range<usize>) -> f64 {
         self.links[links].iter().map(|l| f64::from(UNITS[usize::from(l.unit)].usual) / 1000.0).sum()
     }
 
     /// Which units are in it, each once.
     #[must_use]
-    pub fn units(&self) -> Vec<Unit> {
+    pub(crate) fn units(&self) -> Vec<Unit> {
         let mut units: Vec<Unit> = self.links.iter().map(|l| l.unit).collect();
         units.sort_unstable();
         units.dedup();

@@ -7,7 +7,7 @@ use super::search::{Search, Section, Way};
 use super::units::{ANY, UNITS};
 
 /// Frames in a step.
-pub const STEP: usize = 2;
+pub(crate) const STEP: usize = 2;
 
 /// Ways that lie so far behind the best are given up. Scores are in units of the search.
 const BEAM: f32 = 250.0;

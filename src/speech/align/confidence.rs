@@ -19,7 +19,7 @@ const REACH: usize = 60;
 
 /// The signs of each syllable of a section; 0 for those that are not heard.
 #[must_use]
-pub fn signs(search: &Search<'_>, section: &Section, way: &Way, snr: f32) -> Vec<[f32; SIGNS]> {
+pub(crate) fn signs(search: &Search<'_>, section: &Section, way: &Way, snr: f32) -> Vec<[f32; SIGNS]> {
     let start = search.chain.syllables[section.first].start;
     // What every frame is taken for.
     let mut taken: Vec<&[f32]> = vec![&search.scores[0]; section.to - section.from];

@@ -10,7 +10,7 @@ use crate::speech::fourier::Powers;
 pub const RATE: u32 = 16_000;
 
 /// Samples from one frame to the next: 5 ms.
-pub const HOP: usize = 80;
+pub(crate) const HOP: usize = 80;
 
 /// Frames a second.
 pub const FRAMES: f64 = 200.0;
@@ -60,7 +60,7 @@ impl Features {
         self.levels.len()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     #[cfg(feature = "tools")]
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -100,7 +100,7 @@ impl Features {
 
     /// How much of it is voice, in seconds.
     #[must_use]
-    pub fn sounding(&self) -> f64 {
+    pub(crate) fn sounding(&self) -> f64 {
         let above = -self.snr + (0.25 * self.snr).clamp(5.0, 12.0);
         self.levels.iter().filter(|l| **l > above).count() as f64 / FRAMES
     }

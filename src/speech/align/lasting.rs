@@ -15,7 +15,7 @@ const LONGEST: usize = 200;
 
 /// The logarithms of how likely each number of frames is.
 #[derive(Debug, Clone)]
-pub struct Lasting {
+pub(crate) struct Lasting {
     /// The fewest frames; the first of the values.
     pub least: usize,
     /// For this number of frames, one more, and so on.
@@ -26,7 +26,7 @@ impl Lasting {
     /// Of a unit: the logarithm of its time is spread normally. `rate` is how many times slower than usual is spoken;
     /// `last`: at the end of the script.
     #[must_use]
-    pub fn of(unit: Unit, rate: f32, last: bool) -> Self {
+    pub(crate) fn of(unit: Unit, rate: f32, last: bool) -> Self {
         let kind = UNITS[usize::from(unit)];
         let frame = 1000.0 / FRAMES as f32;
         let usual = kind.usual * rate * if last { DRAWN } else { 1.0 };
@@ -41,7 +41,7 @@ impl Lasting {
 
     /// For so many frames; far less than anything where they are too few or too many.
     #[must_use]
-    pub fn at(&self, frames: usize) -> f32 {
+    pub(crate) fn at(&self, frames: usize) -> f32 {
         frames.checked_sub(self.least).and_then(|i| self.values.get(i)).copied().unwrap_or(-60.0)
     }
 }

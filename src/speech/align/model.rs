@@ -65,7 +65,7 @@ impl Terms {
 /// The logarithm of the density of every unit asked for at every frame, unit by unit: of a mixture its best Gaussian
 /// counts, which is most of the sum and needs no logarithms.
 #[must_use]
-pub fn judge(mixtures: &[Vec<Terms>], heard: &Features) -> Vec<Vec<f32>> {
+pub(crate) fn judge(mixtures: &[Vec<Terms>], heard: &Features) -> Vec<Vec<f32>> {
     let count = heard.len();
     let mut out: Vec<Vec<f32>> = mixtures.iter().map(|_| Vec::with_capacity(count + BLOCK)).collect();
     let mut block = [[0.0_f32; BLOCK]; DIMS];
@@ -101,7 +101,7 @@ pub fn judge(mixtures: &[Vec<Terms>], heard: &Features) -> Vec<Vec<f32>> {
 impl Model {
     /// The one that comes with the program.
     #[must_use]
-    pub fn learned() -> &'static Self {
+    pub(crate) fn learned() -> &'static Self {
         static MODEL: LazyLock<Model> = LazyLock::new(|| {
             // The file is part of the program: a fault in it is ours and the tests'.
             Model::read(LEARNED)

@@ -13,7 +13,7 @@ const TAKEN: f64 = 0.25;
 
 /// The times of every syllable; `confidence` has one for each.
 #[must_use]
-pub fn spoken(
+pub(crate) fn spoken(
     chain: &Chain,
     sections: &[Section],
     ways: &[Way],
@@ -171,7 +171,7 @@ fn place(syllable: &mut SpokenSyllable, start: f64, end: f64) {
 
 /// Where sound and script part.
 #[must_use]
-pub fn partings(sections: &[Section], ways: &[Way], syllables: &[SpokenSyllable]) -> Vec<Note> {
+pub(crate) fn partings(sections: &[Section], ways: &[Way], syllables: &[SpokenSyllable]) -> Vec<Note> {
     let mut notes: Vec<(f64, Note)> = Vec::new();
     for (section, way) in sections.iter().zip(ways) {
         for (offset, beside) in way.beside.iter().enumerate() {

@@ -4,11 +4,11 @@
 use super::lasting::Lasting;
 
 /// The score of what cannot be.
-pub const NEVER: f64 = f64::NEG_INFINITY;
+pub(crate) const NEVER: f64 = f64::NEG_INFINITY;
 
 /// Where an end may lie: frames, both included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Band {
+pub(crate) struct Band {
     /// The first.
     pub low: usize,
     /// The last.
@@ -16,7 +16,7 @@ pub struct Band {
 }
 
 /// The best scores of reaching each frame of a band.
-pub struct Reached {
+pub(crate) struct Reached {
     /// The frames.
     pub band: Band,
     /// A score for each.
@@ -26,14 +26,14 @@ pub struct Reached {
 impl Reached {
     /// The score of a frame; [`NEVER`] outside the band.
     #[must_use]
-    pub fn at(&self, t: usize) -> f64 {
+    pub(crate) fn at(&self, t: usize) -> f64 {
         if t < self.band.low { NEVER } else { self.scores.get(t - self.band.low).copied().unwrap_or(NEVER) }
     }
 }
 
 /// From the beginnings of a unit to its ends: the best score of each end, and how many frames it lasts then.
 #[must_use]
-pub fn extend(before: &Reached, to: Band, row: &[f32], lasting: &Lasting) -> (Reached, Vec<u16>) {
+pub(crate) fn extend(before: &Reached, to: Band, row: &[f32], lasting: &Lasting) -> (Reached, Vec<u16>) {
     let from = before.band.low;
     let width = to.high + 1 - to.low;
     // Sums within the band are small enough for f32; what came before is kept apart.

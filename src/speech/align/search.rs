@@ -12,7 +12,7 @@ use super::units::{ANY, SILENCE, Unit};
 
 /// What leaving the straight way costs, in logarithms of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Costs {
+pub(crate) struct Costs {
     /// A pause between two syllables.
     pub pause: f32,
     /// Something said that is not in the script.
@@ -24,7 +24,7 @@ pub struct Costs {
 impl Costs {
     /// So many times dearer to leave the script; pauses cost the same.
     #[must_use]
-    pub fn times(self, times: f32) -> Self {
+    pub(crate) fn times(self, times: f32) -> Self {
         Self { other: times * self.other, skip: times * self.skip, ..self }
     }
 }
@@ -49,7 +49,7 @@ const WIDEST: usize = 1200;
 
 /// A stretch of sound and what is said in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Section {
+pub(crate) struct Section {
     /// The first frame.
     pub from: usize,
     /// One beyond the last frame.
@@ -63,11 +63,11 @@ pub struct Section {
 }
 
 /// What lies before a syllable, or after the last: something beside the script, frames.
-pub type Beside = Option<(usize, usize)>;
+pub(crate) type Beside = Option<(usize, usize)>;
 
 /// The way that was found through a section.
 #[derive(Debug, Clone, Default)]
-pub struct Way {
+pub(crate) struct Way {
     /// For each link its first frame and one beyond its last; equal where its syllable is not heard.
     pub links: Vec<(usize, usize)>,
     /// For each syllable and the end, what is said before it that is not in the script.
@@ -77,7 +77,7 @@ pub struct Way {
 }
 
 /// What a search looks at.
-pub struct Search<'a> {
+pub(crate) struct Search<'a> {
     /// The script.
     pub chain: &'a Chain,
     /// The scores of silence, of any voice, and of every unit of the script, frame by frame.
@@ -122,7 +122,7 @@ impl Search<'_> {
 
     /// The scores of a link of the script.
     #[must_use]
-    pub fn of_link(&self, link: usize) -> &[f32] {
+    pub(crate) fn of_link(&self, link: usize) -> &[f32] {
         self.row(self.chain.links[link].unit)
     }
 
@@ -134,13 +134,13 @@ impl Search<'_> {
 
     /// How long a link of the script may last.
     #[must_use]
-    pub fn lasting(&self, link: usize) -> Lasting {
+    pub(crate) fn lasting(&self, link: usize) -> Lasting {
         Lasting::of(self.chain.links[link].unit, self.rate, link + 1 == self.chain.links.len())
     }
 
     /// The best way through a section that lies within `width` frames of the way `rough`.
     #[must_use]
-    pub fn way(&self, section: &Section, rough: &[(usize, usize)], width: usize) -> Way {
+    pub(crate) fn way(&self, section: &Section, rough: &[(usize, usize)], width: usize) -> Way {
         let mut widths = vec![width; rough.len()];
         // In a long recording some edge is always touched; all of it is not searched again and again for that.
         let tries = if section.to - section.from > LONG { 1 } else { TRIES };

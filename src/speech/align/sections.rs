@@ -7,7 +7,7 @@ use crate::speech::Pin;
 /// The sections of a recording of so many frames and a script of so many syllables: each pinned syllable is one of its
 /// own. Pins that contradict each other are obeyed as far as they go; those beyond the script are none.
 #[must_use]
-pub fn sections(frames: usize, syllables: usize, pins: &[Pin]) -> Vec<Section> {
+pub(crate) fn sections(frames: usize, syllables: usize, pins: &[Pin]) -> Vec<Section> {
     let mut pins: Vec<&Pin> = pins.iter().filter(|p| p.syllable < syllables).collect();
     pins.sort_by_key(|p| p.syllable);
     pins.dedup_by_key(|p| p.syllable);

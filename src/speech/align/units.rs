@@ -30,7 +30,7 @@ pub const SILENCE: Unit = 0;
 pub const ANY: Unit = 1;
 /// The closure of a stop.
 #[cfg(test)]
-pub const CLOSURE: Unit = 2;
+pub(crate) const CLOSURE: Unit = 2;
 
 /// Every unit. The times are for people who read: those of a synthesiser are others, and were tried.
 pub const UNITS: [Kind; 83] = [

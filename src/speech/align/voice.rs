@@ -13,7 +13,7 @@ const FEWEST: f32 = 3.0;
 
 /// The silence of a recording: its quietest frames, spread a little more widely than they are.
 #[must_use]
-pub fn silence(heard: &Features) -> Option<Gaussian> {
+pub(crate) fn silence(heard: &Features) -> Option<Gaussian> {
     let count = heard.len();
     let spread = |only: Option<&[bool]>| {
         let (mut sum, mut square, mut number) = ([0.0_f64; DIMS], [0.0_f64; DIMS], 0.0_f64);
@@ -49,13 +49,13 @@ pub struct Heard {
 impl Heard {
     /// Nothing yet.
     #[must_use]
-    pub fn nothing(model: &Model) -> Self {
+    pub(crate) fn nothing(model: &Model) -> Self {
         Self { units: model.mixtures.iter().map(|m| vec![(0.0, [0.0; DIMS]); m.len()]).collect() }
     }
 
     /// What a recording has of each unit: `labels` has one for each frame.
     #[must_use]
-    pub fn of(model: &Model, heard: &Features, labels: &[Unit]) -> Self {
+    pub(crate) fn of(model: &Model, heard: &Features, labels: &[Unit]) -> Self {
         let mut out = Self::nothing(model);
         let terms: Vec<Vec<Terms>> = model.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect();
         for (n, label) in labels.iter().enumerate() {
@@ -101,12 +101,12 @@ impl Heard {
 
     /// How many frames there were, each counted once.
     #[must_use]
-    pub fn frames(&self) -> f32 {
+    pub(crate) fn frames(&self) -> f32 {
         self.units[usize::from(ANY)].iter().map(|h| h.0).sum()
     }
 
     /// Together with what was heard elsewhere.
-    pub fn and(&mut self, other: &Self, times: f32) {
+    pub(crate) fn and(&mut self, other: &Self, times: f32) {
         for (mine, theirs) in self.units.iter_mut().flatten().zip(other.units.iter().flatten()) {
             mine.0 += times * theirs.0;
             for (m, t) in mine.1.iter_mut().zip(&theirs.1) {
@@ -117,7 +117,7 @@ impl Heard {
 
     /// The model with its means moved towards what was heard.
     #[must_use]
-    pub fn moved(&self, model: &Model) -> Model {
+    pub(crate) fn moved(&self, model: &Model) -> Model {
         let mixtures = model.mixtures.iter().zip(&self.units).map(|(mixture, heard)| {
             let frames: f32 = heard.iter().map(|h| h.0).sum();
             if frames < FEWEST {
@@ -135,7 +135,7 @@ impl Heard {
 
 /// Terms of silence, of any voice, and of each unit asked for; and for each unit its row.
 #[must_use]
-pub fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<Vec<Terms>>, Vec<usize>) {
+pub(crate) fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<Vec<Terms>>, Vec<usize>) {
     let mut rows = vec![1; UNITS.len()];
     rows[usize::from(SILENCE)] = 0;
     let terms = |unit: Unit| -> Vec<Terms> { model.of(unit).iter().map(Terms::of).collect() };
@@ -152,7 +152,7 @@ pub fn ready(model: &Model, units: &[Unit], silence: Option<&Gaussian>) -> (Vec<
 
 /// How much better a model fits what was found than another, in logarithms a frame.
 #[must_use]
-pub fn gain(before: &Model, after: &Model, heard: &Features, labels: &[Unit]) -> f32 {
+pub(crate) fn gain(before: &Model, after: &Model, heard: &Features, labels: &[Unit]) -> f32 {
     let terms =
         |m: &Model| -> Vec<Vec<Terms>> { m.mixtures.iter().map(|m| m.iter().map(Terms::of).collect()).collect() };
     let (before, after) = (terms(before), terms(after));

@@ -87,7 +87,7 @@ impl Work {
     ///
     /// # Errors
     /// No syllables, no voice, too short.
-    pub fn of(take: &Take<'_>) -> Result<Self> {
+    pub(crate) fn of(take: &Take<'_>) -> Result<Self> {
         let chain = Chain::of(take.script);
         let count = chain.syllables.len();
         if count == 0 {
@@ -136,7 +136,7 @@ impl Work {
     }
 
     /// Searches once, by a model.
-    pub fn pass(&mut self, model: &Model) {
+    pub(crate) fn pass(&mut self, model: &Model) {
         let (terms, rows) = voice::ready(model, &self.units, self.silence.as_ref());
         let mut scores = judge(&terms, &self.heard);
         // Against any voice: so scores stay near 0, and what is said beside the script has none.
@@ -258,7 +258,7 @@ impl Work {
 
     /// The unit of every frame.
     #[must_use]
-    pub fn labels(&self) -> Vec<Unit> {
+    pub(crate) fn labels(&self) -> Vec<Unit> {
         let mut labels = vec![SILENCE; self.heard.len()];
         for (section, way) in self.sections.iter().zip(&self.ways) {
             let links = &self.chain.links[self.chain.syllables[section.first].start..];
@@ -310,13 +310,6 @@ impl Work {
             notes.extend(outcome::partings(&self.sections, &found, &syllables));
         }
         Alignment { syllables, notes }
-    }
-
-    /// How long what was heard lasts, in seconds.
-    #[cfg(feature = "tools")]
-    #[must_use]
-    pub fn seconds(&self) -> f64 {
-        self.heard.len() as f64 / FRAMES
     }
 }
 

@@ -32,7 +32,7 @@ pub struct Pitch {
 impl Pitch {
     /// The pitch at a time in seconds; none where unvoiced or outside.
     #[must_use]
-    pub fn at(&self, time: f64) -> Option<f32> {
+    pub(crate) fn at(&self, time: f64) -> Option<f32> {
         let index = (time / self.step).round();
         (index >= 0.0).then(|| self.hertz.get(index as usize).copied().flatten())?
     }

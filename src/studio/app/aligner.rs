@@ -23,7 +23,7 @@ impl Aligner {
 
     /// Runs a job.
     #[must_use]
-    pub fn run(&self, job: &AlignJob) -> Vec<(usize, Result<Alignment>)> {
+    pub(crate) fn run(&self, job: &AlignJob) -> Vec<(usize, Result<Alignment>)> {
         (self.0)(job)
     }
 }
@@ -64,7 +64,7 @@ pub struct Standing {
 impl Standing {
     /// That of a clip.
     #[must_use]
-    pub fn of(clip: &Clip) -> Self {
+    pub(crate) fn of(clip: &Clip) -> Self {
         Self { script: clip.script.clone(), intervals: clip.intervals().to_vec(), pins: clip.score.pins.clone() }
     }
 }

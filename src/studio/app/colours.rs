@@ -19,14 +19,14 @@ pub enum Colours {
 impl Colours {
     /// What the environment says: `NO_COLOR`, then `COLORTERM`, then `TERM`.
     #[must_use]
-    pub fn of_environment() -> Self {
+    pub(crate) fn of_environment() -> Self {
         let variable = |name| std::env::var(name).unwrap_or_default();
         Self::said(&variable("NO_COLOR"), &variable("COLORTERM"), &variable("TERM"))
     }
 
     /// What three variables say.
     #[must_use]
-    pub fn said(no_color: &str, colorterm: &str, term: &str) -> Self {
+    pub(crate) fn said(no_color: &str, colorterm: &str, term: &str) -> Self {
         match (no_color, colorterm) {
             (set, _) if !set.is_empty() => Self::None,
             (_, "truecolor" | "24bit") => Self::True,
@@ -37,7 +37,7 @@ impl Colours {
 
     /// A colour as this terminal has it.
     #[must_use]
-    pub fn colour(self, [r, g, b]: [u8; 3]) -> Color {
+    pub(crate) fn colour(self, [r, g, b]: [u8; 3]) -> Color {
         match self {
             Self::None => Color::Reset,
             // A grey of the 256 takes half the bytes, and 24 of them are enough for ink on paper.
@@ -49,7 +49,7 @@ impl Colours {
 
     /// A style of that colour, plain where there are none.
     #[must_use]
-    pub fn ink(self, rgb: [u8; 3]) -> Style {
+    pub(crate) fn ink(self, rgb: [u8; 3]) -> Style {
         match self {
             Self::None => Style::new(),
             _ => Style::new().fg(self.colour(rgb)),
@@ -60,7 +60,7 @@ impl Colours {
     /// red from green can tell apart; the two darkest are lightened so that they show on black too. Neutral has the
     /// terminal's own.
     #[must_use]
-    pub fn of_emotion(self, emotion: Emotion) -> Style {
+    pub(crate) fn of_emotion(self, emotion: Emotion) -> Style {
         match emotion {
             Emotion::Neutral => Style::new(),
             Emotion::Happy => self.ink([214, 146, 0]),
@@ -74,7 +74,7 @@ impl Colours {
 
     /// The style of what belongs to the author: magenta can be read on black and on white.
     #[must_use]
-    pub fn accent(self) -> Style {
+    pub(crate) fn accent(self) -> Style {
         match self {
             Self::None => Style::new(),
             _ => Style::new().fg(Color::Magenta),
@@ -83,7 +83,7 @@ impl Colours {
 
     /// The style of what is not done yet: unsaved, guessed, odd.
     #[must_use]
-    pub fn warning(self) -> Style {
+    pub(crate) fn warning(self) -> Style {
         match self {
             Self::None => Style::new(),
             _ => Style::new().fg(Color::Yellow),
@@ -92,7 +92,7 @@ impl Colours {
 
     /// The style of what is wrong, and of nothing else.
     #[must_use]
-    pub fn fault(self) -> Style {
+    pub(crate) fn fault(self) -> Style {
         match self {
             Self::None => Style::new(),
             _ => Style::new().fg(Color::Red),

@@ -25,7 +25,7 @@ pub enum SoundView {
 impl SoundView {
     /// The one after it.
     #[must_use]
-    pub const fn next(self) -> Self {
+    pub(crate) const fn next(self) -> Self {
         match self {
             Self::Wave => Self::Spectrogram,
             Self::Spectrogram => Self::Both,
@@ -46,7 +46,7 @@ impl Tone {
     /// Measures the speaker's own range: from the 3rd to the 97th hundredth of all voiced moments, so that single
     /// errors an octave off do not stretch it.
     #[must_use]
-    pub fn new(pitch: Pitch) -> Self {
+    pub(crate) fn new(pitch: Pitch) -> Self {
         let mut all: Vec<f64> = pitch.hertz.iter().flatten().map(|h| semitones(*h)).collect();
         all.sort_by(f64::total_cmp);
         let at = |share: f64| all.get(((all.len().max(1) - 1) as f64 * share).round() as usize).copied();
@@ -58,7 +58,7 @@ impl Tone {
     /// Where the voice is in the speaker's range between two instants in seconds, 0 (lowest) to 1: the mean of what is
     /// voiced there; none where nothing is.
     #[must_use]
-    pub fn between(&self, from: f64, to: f64) -> Option<f64> {
+    pub(crate) fn between(&self, from: f64, to: f64) -> Option<f64> {
         let step = self.pitch.step;
         if step <= 0.0 || step.is_nan() {
             return None;
@@ -76,7 +76,7 @@ impl Tone {
 
     /// The lowest and the highest pitch that is shown, in Hz; none where there is no voice at all.
     #[must_use]
-    pub fn hertz(&self) -> Option<(f64, f64)> {
+    pub(crate) fn hertz(&self) -> Option<(f64, f64)> {
         let hertz = |semitones: f64| ORIGIN * 2.0_f64.powf(semitones / 12.0);
         self.pitch.hertz.iter().any(Option::is_some).then(|| (hertz(self.range.0), hertz(self.range.1)))
     }

@@ -55,7 +55,7 @@ impl Place {
 
 /// A row of the table: keys that belong together.
 #[derive(Debug)]
-pub struct Row {
+pub(crate) struct Row {
     /// Where it holds.
     pub places: &'static [Place],
     /// The keys and what each asks for.
@@ -76,7 +76,7 @@ const fn row(
 }
 
 /// The rows of the lists and of the timeline, in the order in which the help shows them.
-pub const TABLE: &[Row] = &[
+pub(crate) const TABLE: &[Row] = &[
     row(
         &[Projects, Lesson],
         &[("Up", Choose(-1)), ("Down", Choose(1)), ("k", Choose(-1)), ("j", Choose(1))],
@@ -270,7 +270,7 @@ pub const TABLE: &[Row] = &[
 
 /// What a key asks for in a place; none where it means nothing there.
 #[must_use]
-pub fn action_of(place: Place, key: &str) -> Option<Action> {
+pub(crate) fn action_of(place: Place, key: &str) -> Option<Action> {
     let rows = TABLE.iter().filter(|r| r.places.contains(&place));
     let found = rows.flat_map(|r| r.keys).find(|(k, _)| *k == key).map(|(_, action)| *action);
     let mut letters = key.chars();
@@ -283,7 +283,7 @@ pub fn action_of(place: Place, key: &str) -> Option<Action> {
 
 /// The name of a key in the table: `l`, `Space`, `Ctrl-r`, `Shift-Left`; none for keys that have no name there.
 #[must_use]
-pub fn name_of(key: &KeyEvent) -> Option<String> {
+pub(crate) fn name_of(key: &KeyEvent) -> Option<String> {
     let bare = match key.code {
         KeyCode::Char(' ') => "Space".to_owned(),
         KeyCode::Char(c) => c.to_string(),
@@ -319,7 +319,7 @@ pub fn name_of(key: &KeyEvent) -> Option<String> {
 
 /// A key as it is shown: arrows as arrows.
 #[must_use]
-pub fn shown(key: &str) -> String {
+pub(crate) fn shown(key: &str) -> String {
     const SIGNS: [(&str, &str); 7] = [
         ("PageUp", "PgUp"),
         ("PageDown", "PgDn"),
@@ -338,13 +338,13 @@ pub fn shown(key: &str) -> String {
 }
 
 /// The rows of a place: their keys as shown, and their help.
-pub fn help_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
+pub(crate) fn help_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
     let keys = |r: &Row| r.keys.iter().map(|(k, _)| shown(k)).collect::<Vec<_>>().join(" ");
     TABLE.iter().filter(move |r| r.places.contains(&place)).map(move |r| (keys(r), r.help))
 }
 
 /// The hints at the foot of a place: the two first keys of every row that has one, and the hint.
-pub fn hints_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
+pub(crate) fn hints_of(place: Place) -> impl Iterator<Item = (String, &'static str)> {
     let keys = |r: &Row| {
         // A pair of opposites is shown as a pair, a single thing by its first key.
         let mut shown_keys: Vec<(&str, Action)> = Vec::new();

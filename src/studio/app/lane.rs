@@ -13,7 +13,7 @@ pub enum Lane {
 
 impl Lane {
     /// All lanes from top to bottom.
-    pub const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::Syllables,
         Self::Keys(Track::Mouth),
         Self::Keys(Track::Emotion),
@@ -24,7 +24,7 @@ impl Lane {
 
     /// What it is called on the screen.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Syllables => "said",
             Self::Keys(Track::Mouth) => "mouth",
@@ -37,7 +37,7 @@ impl Lane {
 
     /// The lane so many further down; the first and the last are ends.
     #[must_use]
-    pub fn moved(self, by: i32) -> Self {
+    pub(crate) fn moved(self, by: i32) -> Self {
         let at = Self::ALL.iter().position(|l| *l == self).unwrap_or(0) as i32;
         Self::ALL[(at + by).clamp(0, Self::ALL.len() as i32 - 1) as usize]
     }

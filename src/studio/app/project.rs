@@ -58,7 +58,7 @@ pub struct Following {
 impl Following {
     /// How far it is, in a few letters.
     #[must_use]
-    pub fn told(&self) -> String {
+    pub(crate) fn told(&self) -> String {
         match self.done {
             (_, Some(0)) | (0, _) => "following the face…".into(),
             (done, Some(of)) => format!("following the face {} %…", 100 * done / of),
@@ -70,7 +70,7 @@ impl Following {
 impl OpenProject {
     /// A project that was just opened.
     #[must_use]
-    pub fn new(lesson: Lesson, findings: Vec<Finding>) -> Self {
+    pub(crate) fn new(lesson: Lesson, findings: Vec<Finding>) -> Self {
         Self {
             lesson,
             findings,
@@ -88,13 +88,13 @@ impl OpenProject {
 
     /// How often it and its faces were changed.
     #[must_use]
-    pub const fn counts(&self) -> (u64, u64) {
+    pub(crate) const fn counts(&self) -> (u64, u64) {
         (self.revision, self.faces_revision)
     }
 
     /// How it stands, for the line at the top.
     #[must_use]
-    pub fn standing(&self, colours: Colours) -> (&'static str, Style) {
+    pub(crate) fn standing(&self, colours: Colours) -> (&'static str, Style) {
         match (&self.lesson.read_only, self.lesson.is_unsaved()) {
             (Some(_), _) => ("read-only", colours.warning()),
             (None, true) => ("● unsaved: s saves", colours.warning().add_modifier(Modifier::BOLD)),
@@ -103,7 +103,7 @@ impl OpenProject {
     }
 
     /// Makes a change and says so; whether it could be made.
-    pub fn change(&mut self, change: Change, shell: &mut Shell) -> bool {
+    pub(crate) fn change(&mut self, change: Change, shell: &mut Shell) -> bool {
         let label = change.label.clone();
         match self.lesson.change(change) {
             Ok(()) => {
@@ -119,7 +119,7 @@ impl OpenProject {
     }
 
     /// Undoes or makes again.
-    pub fn retrace(&mut self, action: Action, shell: &mut Shell) {
+    pub(crate) fn retrace(&mut self, action: Action, shell: &mut Shell) {
         let (done, word) = match action {
             Action::Redo => (self.lesson.redo(), "again"),
             _ => (self.lesson.undo(), "undone"),
@@ -137,7 +137,7 @@ impl OpenProject {
     }
 
     /// Writes the project's files and says which; whether any of them changed.
-    pub fn save(&mut self, shell: &mut Shell) -> bool {
+    pub(crate) fn save(&mut self, shell: &mut Shell) -> bool {
         let done = self.lesson.save();
         let any = done.as_ref().is_ok_and(|written| !written.is_empty());
         match done {
@@ -153,7 +153,7 @@ impl OpenProject {
     }
 
     /// Whether everything is in the files, after a save where it was not.
-    pub fn is_saved(&mut self, shell: &mut Shell) -> bool {
+    pub(crate) fn is_saved(&mut self, shell: &mut Shell) -> bool {
         if self.lesson.is_unsaved() {
             self.save(shell);
         }
@@ -161,7 +161,7 @@ impl OpenProject {
     }
 
     /// Whether it can be changed; says why not.
-    pub fn may_change(&self, shell: &mut Shell) -> bool {
+    pub(crate) fn may_change(&self, shell: &mut Shell) -> bool {
         if let Some(why) = &self.lesson.read_only {
             shell.refuse(format!("the lesson cannot be changed: {why}"));
         }

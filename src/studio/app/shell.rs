@@ -83,7 +83,7 @@ pub struct Message {
 impl Shell {
     /// The state of a studio that was just opened.
     #[must_use]
-    pub fn new(colours: Colours, exporter: Exporter) -> Self {
+    pub(crate) fn new(colours: Colours, exporter: Exporter) -> Self {
         Self {
             message: None,
             busy: None,
@@ -104,17 +104,17 @@ impl Shell {
     }
 
     /// Shows a message.
-    pub fn say(&mut self, text: impl Into<String>) {
+    pub(crate) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message { text: text.into(), is_fault: false });
     }
 
     /// Shows that something could not be done, and what to do.
-    pub fn refuse(&mut self, text: impl Into<String>) {
+    pub(crate) fn refuse(&mut self, text: impl Into<String>) {
         self.message = Some(Message { text: text.into(), is_fault: true });
     }
 
     /// Shows a fault in one line: what went wrong, and what to do.
-    pub fn say_fault(&mut self, fault: &Fault) {
+    pub(crate) fn say_fault(&mut self, fault: &Fault) {
         self.refuse(wording::in_a_line(fault));
     }
 }

@@ -129,7 +129,7 @@ pub struct Context<'a> {
 }
 
 /// What is done once a screen has handled something.
-pub enum Effect {
+pub(crate) enum Effect {
     /// Puts a screen on top.
     Push(Box<dyn Screen>),
     /// Closes the screen at this place in the stack.
@@ -148,28 +148,28 @@ pub enum Effect {
 
 impl Context<'_> {
     /// Puts a screen on top.
-    pub fn push(&mut self, screen: impl Screen) {
+    pub(crate) fn push(&mut self, screen: impl Screen) {
         self.effects.push(Effect::Push(Box::new(screen)));
     }
 
     /// Closes this screen.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         self.effects.push(Effect::Close(self.at));
     }
 
     /// Asks for something else.
-    pub fn ask(&mut self, effect: Effect) {
+    pub(crate) fn ask(&mut self, effect: Effect) {
         self.effects.push(effect);
     }
 
     /// Starts work in a thread.
-    pub fn start<J: Job>(&mut self, job: J) {
+    pub(crate) fn start<J: Job>(&mut self, job: J) {
         self.effects.push(Effect::Start(Box::new(move |stack| stack.start(job))));
     }
 }
 
 /// Work that takes long enough to be done in a thread.
-pub trait Job: Send + Sized + 'static {
+pub(crate) trait Job: Send + Sized + 'static {
     /// What it makes.
     type Made: Send + 'static;
 
@@ -191,17 +191,17 @@ pub struct Report(Box<dyn FnOnce(&mut Stack) + Send>);
 
 impl Report {
     /// Takes it.
-    pub fn take(self, stack: &mut Stack) {
+    pub(crate) fn take(self, stack: &mut Stack) {
         (self.0)(stack);
     }
 }
 
 /// Tells the studio how far a thread is.
-pub struct Reporter(Sender<Report>);
+pub(crate) struct Reporter(Sender<Report>);
 
 impl Reporter {
     /// Tells the studio something, which it takes between two events. Nobody may wait for it any more.
-    pub fn tell(&self, change: impl FnOnce(&mut Stack) + Send + 'static) {
+    pub(crate) fn tell(&self, change: impl FnOnce(&mut Stack) + Send + 'static) {
         let _ = self.0.send(Report(Box::new(change)));
     }
 }
@@ -221,18 +221,18 @@ pub struct Stack {
 impl Stack {
     /// A stack of one page.
     #[must_use]
-    pub fn new(page: impl Screen, shell: Shell) -> Self {
+    pub(crate) fn new(page: impl Screen, shell: Shell) -> Self {
         Self { screens: vec![Box::new(page)], shell, effects: Vec::new(), reports: unbounded(), under_way: 0 }
     }
 
     /// The place of the topmost page.
     #[must_use]
-    pub fn page(&self) -> usize {
+    pub(crate) fn page(&self) -> usize {
         self.screens.iter().rposition(|s| s.is_page()).unwrap_or(0)
     }
 
     /// Lets the screen at a place in the stack handle something.
-    pub fn handle_at<T>(
+    pub(crate) fn handle_at<T>(
         &mut self,
         at: usize,
         handle: impl FnOnce(&mut dyn Screen, &mut Context<'_>) -> T,
@@ -249,7 +249,7 @@ impl Stack {
     }
 
     /// Lets the topmost screen of a kind handle something; nothing where there is none.
-    pub fn with<S: Screen, T>(&mut self, handle: impl FnOnce(&mut S, &mut Context<'_>) -> T) -> Option<T> {
+    pub(crate) fn with<S: Screen, T>(&mut self, handle: impl FnOnce(&mut S, &mut Context<'_>) -> T) -> Option<T> {
         let at = self.screens.iter().rposition(|screen| (screen.as_ref() as &dyn Any).is::<S>())?;
         let screen = (self.screens[at].as_mut() as &mut dyn Any).downcast_mut()?;
         let mut cx = Context { shell: &mut self.shell, at, effects: &mut self.effects };
@@ -257,27 +257,27 @@ impl Stack {
     }
 
     /// Lets something be handled that belongs to no screen.
-    pub fn context(&mut self) -> Context<'_> {
+    pub(crate) fn context(&mut self) -> Context<'_> {
         Context { shell: &mut self.shell, at: usize::MAX, effects: &mut self.effects }
     }
 
     /// The open project in a folder.
     #[must_use]
-    pub fn project(&self, root: &Path) -> Option<SharedProject> {
+    pub(crate) fn project(&self, root: &Path) -> Option<SharedProject> {
         let project = self.screens.iter().find_map(|screen| screen.project())?;
         (project.borrow().lesson.root == root).then(|| Rc::clone(project))
     }
 
     /// The editor of a clip of the project in a folder.
     #[must_use]
-    pub fn editor(&self, root: &Path, clip: usize) -> Option<(SharedProject, SharedEditor)> {
+    pub(crate) fn editor(&self, root: &Path, clip: usize) -> Option<(SharedProject, SharedEditor)> {
         let project = self.project(root)?;
         let editor = self.screens.iter().find_map(|screen| screen.editor())?;
         (editor.borrow().clip == clip).then(|| (project, Rc::clone(editor)))
     }
 
     /// Starts work in a thread. Whatever becomes of it, it reports its end.
-    pub fn start<J: Job>(&mut self, mut job: J) {
+    pub(crate) fn start<J: Job>(&mut self, mut job: J) {
         self.under_way += 1;
         let reporter = Reporter(self.reports.0.clone());
         thread::spawn(move || {
@@ -293,18 +293,18 @@ impl Stack {
 
     /// What threads report.
     #[must_use]
-    pub fn reports(&self) -> &Receiver<Report> {
+    pub(crate) fn reports(&self) -> &Receiver<Report> {
         &self.reports.1
     }
 
     /// Whether threads are at work.
     #[must_use]
-    pub fn is_working(&self) -> bool {
+    pub(crate) fn is_working(&self) -> bool {
         self.under_way > 0
     }
 
     /// Takes what was asked for since it was last taken.
-    pub fn take_effects(&mut self) -> Vec<Effect> {
+    pub(crate) fn take_effects(&mut self) -> Vec<Effect> {
         std::mem::take(&mut self.effects)
     }
 }

@@ -75,7 +75,7 @@ impl Studio {
 
     /// The place in the key table where a key is pressed.
     #[must_use]
-    pub fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         self.stack.screens.last().map_or(Place::Projects, |screen| screen.place())
     }
 
@@ -100,7 +100,7 @@ impl Studio {
     }
 
     /// Carries out an action: the topmost screen down to the topmost page may take it, then the studio itself.
-    pub fn handle(&mut self, action: Action) {
+    pub(crate) fn handle(&mut self, action: Action) {
         if action != Action::Redraw {
             self.stack.shell.message = None;
         }

@@ -56,13 +56,13 @@ fn fault(error: io::Error) -> Fault {
 impl Screen {
     /// Whether there is a terminal to take. Standard input may be a file or a pipe, such as the record that is played:
     /// keys come from the terminal itself then.
-    pub fn is_there() -> bool {
+    pub(crate) fn is_there() -> bool {
         let opens = || File::options().read(true).write(true).open("/dev/tty").is_ok();
         io::stdout().is_terminal() && (io::stdin().is_terminal() || opens())
     }
 
     /// Takes the terminal over.
-    pub fn take() -> Result<Self> {
+    pub(crate) fn take() -> Result<Self> {
         give_back_on_panic();
         let out = standard_output().map_err(fault)?;
         enable_raw_mode().map_err(fault)?;
@@ -83,14 +83,14 @@ impl Screen {
     }
 
     /// Takes the terminal's size as it is now, and draws everything anew with the next frame.
-    pub fn anew(&mut self) -> Result<()> {
+    pub(crate) fn anew(&mut self) -> Result<()> {
         let (width, height) = size().map_err(fault)?;
         self.terminal = Self::of_size(&self.gathered, width, height)?;
         Ok(())
     }
 
     /// Draws a frame and writes what has changed, at once.
-    pub fn draw(&mut self, render: impl FnOnce(&mut Frame<'_>)) -> Result<()> {
+    pub(crate) fn draw(&mut self, render: impl FnOnce(&mut Frame<'_>)) -> Result<()> {
         // The beginning of the frame stands before a clear that waits to be written with it.
         let waiting = std::mem::take(&mut *self.gathered.0.borrow_mut());
         self.gathered.queue(BeginSynchronizedUpdate).map_err(fault)?;

@@ -44,7 +44,7 @@ enum Order {
 
 impl Voice {
     /// The player of this computer; none where none is installed or the terminal is somewhere else.
-    pub fn found() -> Option<Self> {
+    pub(crate) fn found() -> Option<Self> {
         let is_remote = ["SSH_CONNECTION", "SSH_TTY", "SSH_CLIENT"].iter().any(|v| std::env::var_os(v).is_some());
         if is_remote {
             return None;
@@ -59,22 +59,22 @@ impl Voice {
     }
 
     /// Makes ready what will be played next, so that it then begins at once.
-    pub fn prepare(&self, sound: Arc<Sound>, from: f64, speed: f64) {
+    pub(crate) fn prepare(&self, sound: Arc<Sound>, from: f64, speed: f64) {
         self.order(Order::Prepare { sound, from, speed });
     }
 
     /// Plays a recording from a time in seconds on; at half speed its pitch stays.
-    pub fn play(&self, sound: Arc<Sound>, from: f64, speed: f64) {
+    pub(crate) fn play(&self, sound: Arc<Sound>, from: f64, speed: f64) {
         self.order(Order::Play { sound, from, speed });
     }
 
     /// Plays clicks at times in seconds.
-    pub fn click(&self, times: Vec<f64>) {
+    pub(crate) fn click(&self, times: Vec<f64>) {
         self.order(Order::Clicks(times));
     }
 
     /// Stops what is heard.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.order(Order::Silence);
     }
 

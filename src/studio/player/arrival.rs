@@ -13,7 +13,7 @@ const AHEAD: usize = 1000;
 
 /// A report of the reader.
 #[derive(Debug)]
-pub enum Arrived {
+pub(crate) enum Arrived {
     /// A frame.
     Moment(Box<Moment>),
     /// The end, with the fault where the record is cut or damaged.
@@ -29,7 +29,7 @@ pub(super) struct Room {
 
 impl Room {
     /// Makes room for one more frame, after one was taken.
-    pub fn give_back(&self) {
+    pub(crate) fn give_back(&self) {
         // It holds as many as were taken from it.
         let _ = self.free.try_send(());
     }

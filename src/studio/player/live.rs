@@ -48,7 +48,7 @@ pub fn play_live(title: &str, figure: Figure, input: impl Read + Send + 'static)
 }
 
 /// A record at the time of the frames that have arrived.
-pub struct LivePlayback {
+pub(crate) struct LivePlayback {
     title: String,
     /// Frames that have arrived and are not due.
     waiting: VecDeque<Moment>,

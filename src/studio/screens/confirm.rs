@@ -12,7 +12,7 @@ use crate::studio::widgets::boxed::boxed;
 use crate::studio::widgets::text::{BOLD, put};
 
 /// Leave with unsaved changes? What was asked for is done after the answer.
-pub struct ConfirmScreen {
+pub(crate) struct ConfirmScreen {
     project: SharedProject,
     by: Action,
 }
@@ -20,7 +20,7 @@ pub struct ConfirmScreen {
 impl ConfirmScreen {
     /// The question before leaving by `Quit` or `Back`.
     #[must_use]
-    pub const fn new(project: SharedProject, by: Action) -> Self {
+    pub(crate) const fn new(project: SharedProject, by: Action) -> Self {
         Self { project, by }
     }
 }

@@ -24,7 +24,7 @@ use crate::studio::widgets::text::{put, put_short};
 
 /// How far a running export is.
 #[derive(Debug)]
-pub struct ExportingScreen {
+pub(crate) struct ExportingScreen {
     progress: Progress,
     /// Set to stop it.
     cancel: Arc<AtomicBool>,

@@ -9,7 +9,7 @@ use crate::studio::widgets::boxed;
 
 /// The list of all keys of a place.
 #[derive(Debug)]
-pub struct HelpScreen {
+pub(crate) struct HelpScreen {
     of: Place,
     /// Lines scrolled.
     scrolled: usize,
@@ -18,7 +18,7 @@ pub struct HelpScreen {
 impl HelpScreen {
     /// The keys of a place.
     #[must_use]
-    pub const fn new(of: Place) -> Self {
+    pub(crate) const fn new(of: Place) -> Self {
         Self { of, scrolled: 0 }
     }
 }

@@ -13,7 +13,7 @@ use crate::studio::widgets::text::{folded, put_short};
 
 /// Lines to read, folded where the terminal is too narrow.
 #[derive(Debug)]
-pub struct NotesScreen {
+pub(crate) struct NotesScreen {
     title: String,
     lines: Vec<String>,
     /// Lines scrolled.
@@ -23,7 +23,7 @@ pub struct NotesScreen {
 impl NotesScreen {
     /// Lines under a title.
     #[must_use]
-    pub const fn new(title: String, lines: Vec<String>) -> Self {
+    pub(crate) const fn new(title: String, lines: Vec<String>) -> Self {
         Self { title, lines, scrolled: 0 }
     }
 }

@@ -13,7 +13,7 @@ use crate::studio::widgets::text::{BOLD, CHOSEN, cells, put, put_short};
 
 /// Places of the clip below, one of them chosen.
 #[derive(Debug)]
-pub struct ReviewScreen {
+pub(crate) struct ReviewScreen {
     list: Vec<Spotted>,
     chosen: usize,
 }
@@ -21,7 +21,7 @@ pub struct ReviewScreen {
 impl ReviewScreen {
     /// A list with the number of what is chosen in it.
     #[must_use]
-    pub const fn new(list: Vec<Spotted>, chosen: usize) -> Self {
+    pub(crate) const fn new(list: Vec<Spotted>, chosen: usize) -> Self {
         Self { list, chosen }
     }
 }

@@ -13,7 +13,7 @@ use crate::studio::widgets::text::{BOLD, CHOSEN, DIM, cells, folded, put};
 
 /// A line being typed. What is accepted goes to the page below.
 #[derive(Debug)]
-pub struct TypingScreen {
+pub(crate) struct TypingScreen {
     /// The line and what it is for.
     pub prompt: Prompt,
 }
@@ -21,7 +21,12 @@ pub struct TypingScreen {
 impl TypingScreen {
     /// A line that proposes a text.
     #[must_use]
-    pub fn new(purpose: Purpose, title: String, help: impl Into<std::borrow::Cow<'static, str>>, text: String) -> Self {
+    pub(crate) fn new(
+        purpose: Purpose,
+        title: String,
+        help: impl Into<std::borrow::Cow<'static, str>>,
+        text: String,
+    ) -> Self {
         Self { prompt: Prompt { purpose, title, help: help.into(), line: Line::new(text), fault: None } }
     }
 }

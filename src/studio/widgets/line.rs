@@ -18,33 +18,33 @@ pub struct Line {
 impl Line {
     /// A line that proposes a text, the caret behind it. Typing replaces it; moving the caret first keeps it.
     #[must_use]
-    pub fn new(text: impl Into<String>) -> Self {
+    pub(crate) fn new(text: impl Into<String>) -> Self {
         let input = Input::new(text.into());
         Self { proposed: !input.value().is_empty(), input }
     }
 
     /// True while the text is a proposal that the next letter replaces.
     #[must_use]
-    pub fn is_proposed(&self) -> bool {
+    pub(crate) fn is_proposed(&self) -> bool {
         self.proposed
     }
 
     /// The text of the line.
     #[must_use]
-    pub fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         self.input.value()
     }
 
     /// The text before the caret.
     #[must_use]
-    pub fn before_caret(&self) -> &str {
+    pub(crate) fn before_caret(&self) -> &str {
         let text = self.text();
         let end = text.char_indices().nth(self.input.cursor()).map_or(text.len(), |(at, _)| at);
         &text[..end]
     }
 
     /// Puts text in; what could act on a terminal is left out.
-    pub fn put(&mut self, text: &str) {
+    pub(crate) fn put(&mut self, text: &str) {
         self.drop_proposal();
         let clean = if text == " " { " ".into() } else { clean_line(text, LIMIT) };
         let room = LIMIT.saturating_sub(self.text().chars().count());
@@ -54,25 +54,25 @@ impl Line {
     }
 
     /// Takes the letter before the caret away.
-    pub fn rub(&mut self) {
+    pub(crate) fn rub(&mut self) {
         self.drop_proposal();
         self.input.handle(InputRequest::DeletePrevChar);
     }
 
     /// Takes the letter after the caret away.
-    pub fn rub_ahead(&mut self) {
+    pub(crate) fn rub_ahead(&mut self) {
         self.drop_proposal();
         self.input.handle(InputRequest::DeleteNextChar);
     }
 
     /// Takes everything before the caret away.
-    pub fn rub_line(&mut self) {
+    pub(crate) fn rub_line(&mut self) {
         self.proposed = false;
         self.input.handle(InputRequest::DeleteFromStart);
     }
 
     /// Moves the caret by so many letters, as far as there are any.
-    pub fn move_caret(&mut self, by: i32) {
+    pub(crate) fn move_caret(&mut self, by: i32) {
         self.proposed = false;
         let step = if by < 0 { InputRequest::GoToPrevChar } else { InputRequest::GoToNextChar };
         let mut left = by.unsigned_abs();

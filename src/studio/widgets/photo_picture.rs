@@ -10,7 +10,7 @@ use crate::studio::app::colours::Colours;
 
 /// The photo's part as large as an area allows, in cells: its shape is kept, a cell being twice as high as wide.
 #[must_use]
-pub fn size_in(view: Rect, area: Size) -> Size {
+pub(crate) fn size_in(view: Rect, area: Size) -> Size {
     let aspect = (view.width() / view.height().max(1e-6)).clamp(0.1, 10.0);
     let wide = (f64::from(area.height) * 2.0 * aspect).round().clamp(1.0, f64::from(area.width.max(1))) as u16;
     let high = (f64::from(wide) / aspect / 2.0).round().clamp(1.0, f64::from(area.height.max(1))) as u16;
@@ -18,7 +18,7 @@ pub fn size_in(view: Rect, area: Size) -> Size {
 }
 
 /// Puts a whole photo into the middle of an area.
-pub fn frame(buffer: &mut Buffer, area: Cells, photo: &Photo, colours: Colours) {
+pub(crate) fn frame(buffer: &mut Buffer, area: Cells, photo: &Photo, colours: Colours) {
     let view = Rect::new(0.0, 0.0, photo.width() as f64, photo.height() as f64);
     let size = size_in(view, area.as_size());
     let (x, y) = (area.x + (area.width - size.width) / 2, area.y + (area.height - size.height) / 2);
@@ -26,7 +26,7 @@ pub fn frame(buffer: &mut Buffer, area: Cells, photo: &Photo, colours: Colours) 
 }
 
 /// Fills cells with a part of a photo, two pixels a cell; how large such a pixel is in the photo.
-pub fn ground(buffer: &mut Buffer, place: Cells, photo: &Photo, view: Rect, colours: Colours) -> Vec2 {
+pub(crate) fn ground(buffer: &mut Buffer, place: Cells, photo: &Photo, view: Rect, colours: Colours) -> Vec2 {
     let step = Vec2::new(view.width() / f64::from(place.width), view.height() / f64::from(place.height) / 2.0);
     for y in 0..place.height {
         for x in 0..place.width {

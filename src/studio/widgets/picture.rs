@@ -27,7 +27,7 @@ const DARK: u32 = 190;
 
 /// The picture of a face and what it shows.
 #[derive(Default)]
-pub struct FacePicture {
+pub(crate) struct FacePicture {
     painter: Option<Painter>,
     shown: Option<Shown>,
     size: Size,
@@ -55,7 +55,7 @@ enum Cell {
 impl FacePicture {
     /// How many cells a figure takes of an area: as high as it is, as wide as the figure then is.
     #[must_use]
-    pub fn size_in(figure: &Figure, area: Size) -> Size {
+    pub(crate) fn size_in(figure: &Figure, area: Size) -> Size {
         let view = figure.face_view();
         let aspect = (view.width() / view.height().max(1e-6)).clamp(0.1, 10.0);
         // A cell is twice as high as it is wide.
@@ -65,7 +65,7 @@ impl FacePicture {
     }
 
     /// Paints the figure, unless it is painted so already.
-    pub fn show(&mut self, figure: &Figure, pose: &Pose, area: Rect, colours: Colours) {
+    pub(crate) fn show(&mut self, figure: &Figure, pose: &Pose, area: Rect, colours: Colours) {
         let size = Self::size_in(figure, area.as_size());
         let wanted = Shown { key: figure.key(), pose: Some(*pose), size, colours };
         if self.shown.as_ref() == Some(&wanted) {
@@ -90,7 +90,7 @@ impl FacePicture {
     }
 
     /// Paints a drawing as large as an area allows, unless it is painted so already.
-    pub fn show_drawing(&mut self, drawing: &Drawing, area: Rect, colours: Colours) {
+    pub(crate) fn show_drawing(&mut self, drawing: &Drawing, area: Rect, colours: Colours) {
         let size = photo_picture::size_in(drawing.view, area.as_size());
         let wanted = Shown { key: drawing.fingerprint(), pose: None, size, colours };
         if self.shown.as_ref() == Some(&wanted) {
@@ -115,7 +115,7 @@ impl FacePicture {
     }
 
     /// Puts the picture into the middle of an area.
-    pub fn put(&self, buffer: &mut Buffer, area: Rect) {
+    pub(crate) fn put(&self, buffer: &mut Buffer, area: Rect) {
         let (wide, high) = (self.size.width.min(area.width), self.size.height.min(area.height));
         let left = area.x + (area.width - wide) / 2;
         let top = area.y + (area.height - high) / 2;

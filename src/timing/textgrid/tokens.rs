@@ -25,12 +25,12 @@ pub(super) enum Kind {
 
 impl Kind {
     /// Whether it is a value rather than a word about one.
-    pub fn is_value(&self) -> bool {
+    pub(crate) fn is_value(&self) -> bool {
         matches!(self, Self::Number(_) | Self::Text(_) | Self::Flag(_))
     }
 
     /// As it is shown in a fault.
-    pub fn shown(&self) -> String {
+    pub(crate) fn shown(&self) -> String {
         match self {
             Self::Number(n) => format!("`{n}`"),
             Self::Text(text) => format!("the text `{}`", shortened(text)),

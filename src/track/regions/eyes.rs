@@ -43,7 +43,7 @@ struct Eye {
 
 impl Eyes {
     /// From the middles of the eyes in the first frame; none where nothing dark is there.
-    pub fn reserved(grey: &Grey, left: Point, right: Point) -> Option<Self> {
+    pub(crate) fn reserved(grey: &Grey, left: Point, right: Point) -> Option<Self> {
         let balls = Eyeballs::at(left, right);
         let windows = [balls.left, balls.right].map(|b| window(grey, b.centre, balls.distance()));
         let [a, b] = windows;
@@ -61,7 +61,7 @@ impl Eyes {
     }
 
     /// Takes the pair of the next frame; where none is found the old one stays, and it is said.
-    pub fn follow(&mut self, grey: &Grey) -> bool {
+    pub(crate) fn follow(&mut self, grey: &Grey) -> bool {
         let d = self.balls.distance();
         let found = [(self.balls.left, &self.seeds[0]), (self.balls.right, &self.seeds[1])]
             .map(|(ball, seeds)| self.grown(grey, ball, seeds, d));

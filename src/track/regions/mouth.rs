@@ -47,7 +47,11 @@ struct Opening {
 impl Mouth {
     /// From the neutral mouth in the first frame: its corners, the edges of its upper and lower lip, the nose's base, all in
     /// the frame of the eyes. None where nothing dark is between the lips.
-    pub fn reserved(grey: &Grey, eyes: &Similarity, [left, right, upper, lower, nose]: [Point; 5]) -> Option<Self> {
+    pub(crate) fn reserved(
+        grey: &Grey,
+        eyes: &Similarity,
+        [left, right, upper, lower, nose]: [Point; 5],
+    ) -> Option<Self> {
         let own = Rect::new(left.x, upper.y, right.x, lower.y);
         let search = Rect::new(own.x0 - BESIDE, (own.y0 - ABOVE).max(nose.y + 0.03), own.x1 + BESIDE, own.y1 + BELOW);
         let units = [(upper.y - nose.y).max(0.05), (right.x - left.x).max(0.1)];
@@ -113,7 +117,7 @@ impl Mouth {
 
     /// How the mouth of the next frame has moved; none where nothing is dark, and the old seeds stay. Of what it opens, a
     /// quarter is the upper lip's, as in the nine shapes.
-    pub fn follow(&mut self, grey: &Grey, eyes: &Similarity) -> Option<MouthMoves> {
+    pub(crate) fn follow(&mut self, grey: &Grey, eyes: &Similarity) -> Option<MouthMoves> {
         let now = self.grown(grey, eyes)?;
         let [mns, mw] = self.units;
         let open = (now.height - self.rest.height) / mns;

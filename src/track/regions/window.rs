@@ -13,7 +13,7 @@ pub(super) struct Window<'g> {
 
 impl<'g> Window<'g> {
     /// The pixels between two corners; none where less than half of them are in the picture.
-    pub fn of(grey: &'g Grey, from: Point, to: Point) -> Option<Self> {
+    pub(crate) fn of(grey: &'g Grey, from: Point, to: Point) -> Option<Self> {
         let whole = (to.x - from.x) * (to.y - from.y);
         let bounds = Bounds::between(from, to, grey.width(), grey.height());
         let there = whole.is_finite() && whole >= 4.0 && bounds.area() as f64 >= 0.5 * whole;
@@ -21,13 +21,13 @@ impl<'g> Window<'g> {
     }
 
     /// Its luma, row by row.
-    pub fn values(&self) -> impl Iterator<Item = f32> + Clone + use<'g> {
+    pub(crate) fn values(&self) -> impl Iterator<Item = f32> + Clone + use<'g> {
         let (b, grey) = (self.bounds, self.grey);
         (b.y0..b.y1).flat_map(move |y| grey.row(y)[b.x0..b.x1].iter().map(|v| f32::from(*v)))
     }
 
     /// The pixels at most as light as `threshold`, in the window's own columns and rows.
-    pub fn dark(&self, threshold: f32) -> Mask {
+    pub(crate) fn dark(&self, threshold: f32) -> Mask {
         let b = self.bounds;
         self.grey.crop(b.x0..b.x1, b.y0..b.y1).map(|v| f32::from(*v) <= threshold)
     }

@@ -65,7 +65,7 @@ pub struct Placing {
 
 impl Placing {
     /// What is to be given, in order.
-    pub const WANTED: [&'static str; 4] = [
+    pub(crate) const WANTED: [&'static str; 4] = [
         "the eye at the image's left",
         "the eye at the image's right",
         "the middle of the mouth",
@@ -74,7 +74,7 @@ impl Placing {
 
     /// What is to be given next.
     #[must_use]
-    pub fn wanted(&self) -> &'static str {
+    pub(crate) fn wanted(&self) -> &'static str {
         Self::WANTED[self.given.len().min(3)]
     }
 }
@@ -82,7 +82,7 @@ impl Placing {
 impl FaceDesk {
     /// The desk of a face, as it is first seen.
     #[must_use]
-    pub fn new(face: usize, mouths: MouthPreset, figure: Option<Figure>) -> Self {
+    pub(crate) fn new(face: usize, mouths: MouthPreset, figure: Option<Figure>) -> Self {
         Self {
             face,
             shot: Emotion::Neutral,
@@ -106,7 +106,7 @@ impl FaceDesk {
 
     /// What the cartoon is to do.
     #[must_use]
-    pub fn pose(&self) -> Pose {
+    pub(crate) fn pose(&self) -> Pose {
         let mut pose = Pose::of(Ratios::pure(self.emotion));
         if let Some(shape) = self.mouth {
             pose.mouth = MouthPose::of(shape, self.mouths);
@@ -115,14 +115,14 @@ impl FaceDesk {
     }
 
     /// Nearer or farther.
-    pub fn zoom_by(&mut self, by: i32) {
+    pub(crate) fn zoom_by(&mut self, by: i32) {
         self.zoom = (self.zoom + by).clamp(0, MAX_ZOOM);
     }
 
     /// The part of the photo to show, in its pixels: the face with its hair, or nearer round the chosen point or the
     /// cross.
     #[must_use]
-    pub fn view(&self, points: &[(FeaturePoint, Placed)], size: Vec2) -> Rect {
+    pub(crate) fn view(&self, points: &[(FeaturePoint, Placed)], size: Vec2) -> Rect {
         let whole = Rect::new(-0.5, -0.5, size.x - 0.5, size.y - 0.5);
         let mut places = points.iter().map(|p| p.1.at).chain(self.dots.iter().copied());
         let around = places.next().map_or(whole, |first| {
@@ -148,7 +148,7 @@ impl FaceDesk {
 
     /// The named points of the shot that is looked at.
     #[must_use]
-    pub fn points(&self, face: &LessonFace) -> Vec<(FeaturePoint, Placed)> {
+    pub(crate) fn points(&self, face: &LessonFace) -> Vec<(FeaturePoint, Placed)> {
         match (face.shot(self.shot), &face.face) {
             (Some(shot), _) => shot.points().collect(),
             (None, Some(face)) => FeaturePoint::all().filter_map(|p| Some((p, *face.placed(p)?))).collect(),
@@ -157,7 +157,7 @@ impl FaceDesk {
     }
 
     /// Chooses the next or previous of the points that there are.
-    pub fn choose(&mut self, by: i32, points: &[(FeaturePoint, Placed)]) {
+    pub(crate) fn choose(&mut self, by: i32, points: &[(FeaturePoint, Placed)]) {
         let here = points.iter().position(|p| p.0 == self.point).unwrap_or(0) as i32;
         if let Some((point, _)) = points.get((here + by).rem_euclid(points.len().max(1) as i32) as usize) {
             self.point = *point;
@@ -167,7 +167,7 @@ impl FaceDesk {
 
 /// A step of a point at one side as its mirror image takes it: mirrored at the line midway between the pupils.
 #[must_use]
-pub fn mirrored(step: Vec2, points: &[(FeaturePoint, Placed)]) -> Vec2 {
+pub(crate) fn mirrored(step: Vec2, points: &[(FeaturePoint, Placed)]) -> Vec2 {
     let at = |p: FeaturePoint| points.iter().find(|q| q.0 == p).map_or(Point::ORIGIN, |q| q.1.at);
     let across = at(FeaturePoint::P3_5) - at(FeaturePoint::P3_6);
     let length = across.hypot();
@@ -180,7 +180,7 @@ pub fn mirrored(step: Vec2, points: &[(FeaturePoint, Placed)]) -> Vec2 {
 
 /// How a point came to be, in words.
 #[must_use]
-pub fn told(placed: &Placed) -> String {
+pub(crate) fn told(placed: &Placed) -> String {
     use crate::face::How;
     match placed.how {
         How::Hand => "set by hand".into(),

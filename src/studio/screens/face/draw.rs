@@ -26,7 +26,7 @@ pub(in crate::studio) struct FaceLayout {
 
 impl FaceLayout {
     /// The places on a screen: head and foot take a line each, the words five or seven at the bottom.
-    pub fn of(area: Rect, desk: &FaceDesk) -> Self {
+    pub(crate) fn of(area: Rect, desk: &FaceDesk) -> Self {
         let rows = if area.height < 30 { 5 } else { 7 };
         let top = Rect::new(area.x + 1, area.y + 1, area.width - 2, area.height - 3 - rows);
         let most = top.width * 2 / 5;

@@ -37,7 +37,7 @@ type Shot = (Arc<Photo>, Vec<Point>);
 
 impl PhotoJob {
     /// The job for a shot of a face; none where it has no photo.
-    pub fn of(lesson: &Lesson, face: usize, shot: Emotion, stages: bool) -> Option<Self> {
+    pub(crate) fn of(lesson: &Lesson, face: usize, shot: Emotion, stages: bool) -> Option<Self> {
         let of = &lesson.faces[face];
         Some(Self {
             root: lesson.root.clone(),

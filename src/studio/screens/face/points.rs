@@ -12,7 +12,7 @@ use crate::studio::app::colours::Colours;
 use crate::studio::widgets::photo_picture::{ground, size_in};
 
 /// Puts the desk's part of the photo into the middle of an area, and the shot's points on it.
-pub fn put(
+pub(crate) fn put(
     buffer: &mut Buffer,
     area: Cells,
     photo: &Photo,
@@ -71,10 +71,10 @@ pub fn put(
 }
 
 /// Found in the photo: bright green shows on skin and on hair.
-pub const FOUND: [u8; 3] = [80, 255, 130];
+pub(crate) const FOUND: [u8; 3] = [80, 255, 130];
 /// Placed by rule.
-pub const RULE: [u8; 3] = [255, 230, 80];
+pub(crate) const RULE: [u8; 3] = [255, 230, 80];
 /// Set by hand.
-pub const SET: [u8; 3] = [90, 190, 255];
+pub(crate) const SET: [u8; 3] = [90, 190, 255];
 /// The chosen one.
-pub const CHOSEN: [u8; 3] = [255, 60, 220];
+pub(crate) const CHOSEN: [u8; 3] = [255, 60, 220];

@@ -18,22 +18,22 @@ pub(super) struct FaceWork<'a, 'b> {
 
 impl FaceWork<'_, '_> {
     /// The face.
-    pub fn face(&self) -> &LessonFace {
+    pub(crate) fn face(&self) -> &LessonFace {
         &self.project.lesson.faces[self.desk.face]
     }
 
     /// Says something.
-    pub fn say(&mut self, text: impl Into<String>) {
+    pub(crate) fn say(&mut self, text: impl Into<String>) {
         self.cx.shell.say(text);
     }
 
     /// Says that something could not be done, and what to do.
-    pub fn refuse(&mut self, text: impl Into<String>) {
+    pub(crate) fn refuse(&mut self, text: impl Into<String>) {
         self.cx.shell.refuse(text);
     }
 
     /// Whether the project can be changed; says why not.
-    pub fn may_change(&mut self) -> bool {
+    pub(crate) fn may_change(&mut self) -> bool {
         if self.cx.shell.busy.is_some() {
             self.refuse("the face is still being looked for");
             return false;
@@ -42,7 +42,7 @@ impl FaceWork<'_, '_> {
     }
 
     /// Makes a change and shows it; whether it could be made.
-    pub fn change(&mut self, change: Change) -> bool {
+    pub(crate) fn change(&mut self, change: Change) -> bool {
         let made = self.project.change(change, self.cx.shell);
         if made {
             self.project.faces_revision += 1;
@@ -52,7 +52,7 @@ impl FaceWork<'_, '_> {
     }
 
     /// Draws the face as the project has it now.
-    pub fn show(&mut self) {
+    pub(crate) fn show(&mut self) {
         let lesson = &self.project.lesson;
         let face = &lesson.faces[self.desk.face];
         self.desk.figure = face.face.is_some().then(|| lesson.cartoon_of(face).ok()).flatten();
@@ -64,7 +64,7 @@ impl FaceWork<'_, '_> {
 
 impl FaceDesk {
     /// Chooses another point where the shot has not the one that is chosen.
-    pub fn choose_known(&mut self, face: &LessonFace) {
+    pub(crate) fn choose_known(&mut self, face: &LessonFace) {
         let points = self.points(face);
         if !points.is_empty() && points.iter().all(|p| p.0 != self.point) {
             self.point = FeaturePoint::P3_6;

@@ -11,7 +11,7 @@ use crate::studio::app::stack::{Context, Effect, Flow, Screen, View};
 
 /// A project that does not open.
 #[derive(Debug)]
-pub struct DamagedScreen {
+pub(crate) struct DamagedScreen {
     /// The folder's name.
     pub name: String,
     /// Why it does not open.

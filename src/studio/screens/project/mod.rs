@@ -16,7 +16,7 @@ use crate::studio::app::stack::{Context, Effect, Flow, Screen, View};
 use crate::studio::widgets::prompt::{Prompt, Purpose};
 
 /// An open project with one of its clips chosen.
-pub struct ProjectScreen {
+pub(crate) struct ProjectScreen {
     project: SharedProject,
     chosen: usize,
 }
@@ -24,7 +24,7 @@ pub struct ProjectScreen {
 impl ProjectScreen {
     /// A project that was just opened.
     #[must_use]
-    pub const fn new(project: SharedProject) -> Self {
+    pub(crate) const fn new(project: SharedProject) -> Self {
         Self { project, chosen: 0 }
     }
 }

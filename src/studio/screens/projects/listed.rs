@@ -7,7 +7,7 @@ use crate::project::Manifest;
 
 /// A project in the list.
 #[derive(Debug)]
-pub struct Listed {
+pub(crate) struct Listed {
     /// Its folder.
     pub root: PathBuf,
     /// The folder's name.

@@ -18,7 +18,7 @@ use crate::studio::app::stack::{Context, Flow, Screen, View};
 
 /// The projects of a folder, or the one it is.
 #[derive(Debug)]
-pub struct ProjectsScreen {
+pub(crate) struct ProjectsScreen {
     /// The folder that was opened.
     pub folder: PathBuf,
     /// The projects in it.
@@ -32,7 +32,7 @@ impl ProjectsScreen {
     ///
     /// # Errors
     /// When the folder cannot be listed.
-    pub fn new(folder: PathBuf) -> Result<Self> {
+    pub(crate) fn new(folder: PathBuf) -> Result<Self> {
         let projects = projects_in(&folder)?.into_iter().map(Listed::of).collect();
         Ok(Self { folder, projects, chosen: 0 })
     }

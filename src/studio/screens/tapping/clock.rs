@@ -20,7 +20,7 @@ const STEP_BACK: f64 = 1.0;
 const AGAIN: f64 = 0.07;
 
 /// The flashes of a measurement, how often they come, and how long one is seen, in seconds.
-pub const FLASHES: usize = 8;
+pub(crate) const FLASHES: usize = 8;
 const EVERY: f64 = 0.75;
 const LIT: f64 = 0.15;
 
@@ -79,7 +79,7 @@ pub struct Tap {
 
 /// What came of time passing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Passed {
+pub(crate) enum Passed {
     /// Nothing that is to be seen.
     Nothing,
     /// Something is to be drawn.
@@ -130,7 +130,7 @@ impl Presses {
 impl Tapping {
     /// Ready to begin at a time, the syllable that comes first being `next`; the cursor is at `home`.
     #[must_use]
-    pub fn new(home: f64, from: f64, next: usize) -> Self {
+    pub(crate) fn new(home: f64, from: f64, next: usize) -> Self {
         Self {
             phase: Phase::Ready,
             speed: 1.0,
@@ -145,7 +145,7 @@ impl Tapping {
     }
 
     /// Lets so many seconds on the wall pass, of a clip that lasts so long.
-    pub fn advance(&mut self, seconds: f64, duration: f64) -> Passed {
+    pub(crate) fn advance(&mut self, seconds: f64, duration: f64) -> Passed {
         self.wall += seconds;
         match &mut self.phase {
             Phase::Ready | Phase::Over => Passed::Nothing,
@@ -184,7 +184,7 @@ impl Tapping {
 
     /// Seconds on the wall until something is to be seen; none while nothing moves. `fps` is the film's.
     #[must_use]
-    pub fn beat(&self, fps: f64) -> Option<f64> {
+    pub(crate) fn beat(&self, fps: f64) -> Option<f64> {
         match &self.phase {
             Phase::Ready | Phase::Over => None,
             Phase::Counting(left) => Some(left - ((left / BEAT).ceil() - 1.0).max(0.0) * BEAT),
@@ -198,7 +198,7 @@ impl Tapping {
 
     /// What is counted: 3, 2, 1.
     #[must_use]
-    pub fn count(&self) -> Option<u32> {
+    pub(crate) fn count(&self) -> Option<u32> {
         match self.phase {
             Phase::Counting(left) => Some((left / BEAT).ceil().max(1.0) as u32),
             _ => None,
@@ -207,7 +207,7 @@ impl Tapping {
 
     /// The flash that is seen now, from 1.
     #[must_use]
-    pub fn flash(&self) -> Option<usize> {
+    pub(crate) fn flash(&self) -> Option<usize> {
         match self.phase {
             Phase::Measuring { at, .. } => lit(at),
             _ => None,
@@ -216,7 +216,7 @@ impl Tapping {
 
     /// How many times was tapped along with the flashes.
     #[must_use]
-    pub fn measured(&self) -> usize {
+    pub(crate) fn measured(&self) -> usize {
         match &self.phase {
             Phase::Measuring { taps, .. } => taps.len(),
             _ => 0,
@@ -225,7 +225,7 @@ impl Tapping {
 
     /// Takes a key: the start of the next syllable, or the end of the last. `latency` is how many seconds after the
     /// sound it comes; `last` the number of syllables.
-    pub fn press(&mut self, is_end: bool, latency: f64, count: usize) {
+    pub(crate) fn press(&mut self, is_end: bool, latency: f64, count: usize) {
         match &mut self.phase {
             Phase::Ready => {
                 self.phase = Phase::Counting(COUNT * BEAT);
@@ -285,7 +285,7 @@ impl Tapping {
     }
 
     /// Takes the last mark back and goes a second back in the sound; whether the sound is to be heard from there.
-    pub fn back(&mut self) -> bool {
+    pub(crate) fn back(&mut self) -> bool {
         if !matches!(self.phase, Phase::Running | Phase::Over) {
             return false;
         }
@@ -297,7 +297,7 @@ impl Tapping {
     }
 
     /// Stops where it is: going back goes on.
-    pub fn stop(&mut self) {
+    pub(crate) fn stop(&mut self) {
         self.phase = match self.phase {
             Phase::Running | Phase::Over => Phase::Over,
             _ => Phase::Ready,
@@ -305,14 +305,14 @@ impl Tapping {
     }
 
     /// Begins to measure.
-    pub fn measure(&mut self) {
+    pub(crate) fn measure(&mut self) {
         self.presses = Presses::default();
         self.phase = Phase::Measuring { at: 0.0, taps: Vec::new() };
     }
 
     /// Ends a measurement: how many seconds after the flashes the taps came, in the middle; none where there were too
     /// few to say.
-    pub fn end_measuring(&mut self) -> Option<f64> {
+    pub(crate) fn end_measuring(&mut self) -> Option<f64> {
         let Phase::Measuring { taps, .. } = std::mem::replace(&mut self.phase, Phase::Ready) else { return None };
         let mut late: Vec<f64> = taps.iter().filter_map(|t| late(*t)).collect();
         late.sort_by(f64::total_cmp);
@@ -326,13 +326,13 @@ impl Tapping {
 
     /// When the flashes come, in seconds after the measurement has begun.
     #[must_use]
-    pub fn flashes() -> Vec<f64> {
+    pub(crate) fn flashes() -> Vec<f64> {
         (1..=FLASHES).map(|k| k as f64 * EVERY).collect()
     }
 
     /// Whether nothing has begun: speed and place may still be chosen.
     #[must_use]
-    pub fn is_ready(&self) -> bool {
+    pub(crate) fn is_ready(&self) -> bool {
         self.phase == Phase::Ready
     }
 }

@@ -19,12 +19,12 @@ pub(in crate::studio) struct ClipDesk<'a, 'b> {
 
 impl ClipDesk<'_, '_> {
     /// The clip.
-    pub fn clip(&self) -> &Clip {
+    pub(crate) fn clip(&self) -> &Clip {
         &self.project.lesson.clips[self.editor.clip]
     }
 
     /// Makes a change and shows it; whether it could be made. What cannot be done is said.
-    pub fn change(&mut self, change: Change) -> bool {
+    pub(crate) fn change(&mut self, change: Change) -> bool {
         let made = self.project.change(change, self.cx.shell);
         if made {
             self.editor.sync(&self.project.lesson, self.project.counts());
@@ -33,22 +33,22 @@ impl ClipDesk<'_, '_> {
     }
 
     /// Puts the cursor on an instant.
-    pub fn go(&mut self, time: f64) {
+    pub(crate) fn go(&mut self, time: f64) {
         self.editor.go(&self.project.lesson.clips[self.editor.clip], time);
     }
 
     /// Says something.
-    pub fn say(&mut self, text: impl Into<String>) {
+    pub(crate) fn say(&mut self, text: impl Into<String>) {
         self.cx.shell.say(text);
     }
 
     /// Says that something could not be done, and what to do.
-    pub fn refuse(&mut self, text: impl Into<String>) {
+    pub(crate) fn refuse(&mut self, text: impl Into<String>) {
         self.cx.shell.refuse(text);
     }
 
     /// Asks for a line to be typed that changes the clip, where it can be changed.
-    pub fn prompt(&mut self, purpose: Purpose, title: String, help: &'static str, text: String) {
+    pub(crate) fn prompt(&mut self, purpose: Purpose, title: String, help: &'static str, text: String) {
         if self.project.may_change(self.cx.shell) {
             self.cx.push(TypingScreen::new(purpose, title, help, text));
         }

@@ -56,7 +56,7 @@ pub struct Left {
 
 /// A key on a lane, whoever set it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LaneKey {
+pub(crate) enum LaneKey {
     /// The author's.
     Own(Key),
     /// A mouth key of speech or of a pause.
@@ -66,7 +66,7 @@ pub enum LaneKey {
 impl LaneKey {
     /// When it is, in seconds.
     #[must_use]
-    pub const fn time(&self) -> f64 {
+    pub(crate) const fn time(&self) -> f64 {
         match self {
             Self::Own(key) => key.time,
             Self::Spoken(key) => key.time,
@@ -77,7 +77,7 @@ impl LaneKey {
 impl Editor {
     /// Opens a clip at its start.
     #[must_use]
-    pub fn new(lesson: &Lesson, clip: usize, figure: Figure, shown: (u64, u64)) -> Self {
+    pub(crate) fn new(lesson: &Lesson, clip: usize, figure: Figure, shown: (u64, u64)) -> Self {
         let timeline = lesson.timeline(clip, None);
         let mut editor = Self {
             clip,
@@ -101,12 +101,12 @@ impl Editor {
 
     /// Where the author is, to come back to.
     #[must_use]
-    pub fn left(&self) -> Left {
+    pub(crate) fn left(&self) -> Left {
         Left { cursor: self.cursor, window: self.window, lane: self.lane, syllable: self.syllable }
     }
 
     /// Goes back to where the author was.
-    pub fn go_back(&mut self, clip: &Clip, left: Left) {
+    pub(crate) fn go_back(&mut self, clip: &Clip, left: Left) {
         self.lane = left.lane;
         self.window = left.window;
         self.go(clip, left.cursor);
@@ -114,7 +114,7 @@ impl Editor {
     }
 
     /// Shows the project as it is now, after so many changes of it and of its faces; whether it has changed.
-    pub fn sync(&mut self, lesson: &Lesson, now: (u64, u64)) -> bool {
+    pub(crate) fn sync(&mut self, lesson: &Lesson, now: (u64, u64)) -> bool {
         if self.shown == now {
             return false;
         }
@@ -151,24 +151,24 @@ impl Editor {
 
     /// What the figure shows at the cursor.
     #[must_use]
-    pub fn pose(&self) -> Pose {
+    pub(crate) fn pose(&self) -> Pose {
         self.timeline.pose(self.cursor)
     }
 
     /// The frame at the cursor.
     #[must_use]
-    pub fn frame(&self) -> u32 {
+    pub(crate) fn frame(&self) -> u32 {
         (self.cursor * self.timeline.fps() + 1e-6).floor() as u32
     }
 
     /// The last instant that one can stand on: the last frame's.
     #[must_use]
-    pub fn last(&self) -> f64 {
+    pub(crate) fn last(&self) -> f64 {
         self.timeline.time_of(self.timeline.frames().saturating_sub(1))
     }
 
     /// Puts the cursor on an instant; the screen and the selection follow.
-    pub fn go(&mut self, clip: &Clip, time: f64) {
+    pub(crate) fn go(&mut self, clip: &Clip, time: f64) {
         self.cursor = time.clamp(0.0, self.last().max(0.0));
         self.window = self.window.following(self.cursor, self.timeline.duration());
         self.syllable = None;
@@ -176,7 +176,7 @@ impl Editor {
     }
 
     /// Moves the cursor by so many frames, onto a frame.
-    pub fn step(&mut self, clip: &Clip, frames: i32) {
+    pub(crate) fn step(&mut self, clip: &Clip, frames: i32) {
         let at = self.cursor * self.timeline.fps();
         // Between two frames the next one on either side is one step away.
         let from = if frames > 0 { (at + 1e-6).floor() } else { (at - 1e-6).ceil() };
@@ -184,7 +184,7 @@ impl Editor {
     }
 
     /// Goes to the next or previous start of a syllable or of a marked place.
-    pub fn to_syllable_or_place(&mut self, clip: &Clip, by: i32) {
+    pub(crate) fn step_syllable_or_place(&mut self, clip: &Clip, by: i32) {
         let syllables = clip.intervals().iter().enumerate().map(|(i, s)| (s.start, Some(i)));
         let mut starts: Vec<(f64, Option<usize>)> = syllables.chain(self.places.iter().map(|p| (p.0, None))).collect();
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -198,13 +198,13 @@ impl Editor {
 
     /// The marked place at the cursor.
     #[must_use]
-    pub fn place_here(&self) -> Option<(f64, f64)> {
+    pub(crate) fn place_here(&self) -> Option<(f64, f64)> {
         self.places.iter().copied().find(|(from, to)| *from - 1e-6 <= self.cursor && self.cursor < *to)
     }
 
     /// How many columns of so many a phone takes in the mean; none where the clip has no phones.
     #[must_use]
-    pub fn columns_a_phone(&self, clip: &Clip, columns: u16) -> Option<f64> {
+    pub(crate) fn columns_a_phone(&self, clip: &Clip, columns: u16) -> Option<f64> {
         let phones = &clip.timing.tier("phones")?.intervals;
         let seconds: f64 = phones.iter().map(crate::timing::Interval::duration).sum();
         (!phones.is_empty()).then(|| seconds / phones.len() as f64 / self.window.span * f64::from(columns))
@@ -224,7 +224,7 @@ impl Editor {
 
     /// The keys of a track in order, whoever set them.
     #[must_use]
-    pub fn keys_on(&self, clip: &Clip, track: Track) -> Vec<LaneKey> {
+    pub(crate) fn keys_on(&self, clip: &Clip, track: Track) -> Vec<LaneKey> {
         let own = clip.score.sorted_keys().filter(|k| k.value.track() == track).map(|k| LaneKey::Own(*k));
         let mut keys: Vec<LaneKey> = own.collect();
         if track == Track::Mouth {
@@ -237,7 +237,7 @@ impl Editor {
 
     /// The key of the lane at the cursor: within half a frame, the nearest.
     #[must_use]
-    pub fn key_here(&self, clip: &Clip) -> Option<LaneKey> {
+    pub(crate) fn key_here(&self, clip: &Clip) -> Option<LaneKey> {
         let Lane::Keys(track) = self.lane else { return None };
         let reach = 0.5 / self.timeline.fps() + 1e-6;
         let away = |k: &LaneKey| (k.time() - self.cursor).abs();
@@ -251,14 +251,14 @@ impl Editor {
 
     /// Whether a syllable's times are a guess that nobody has looked at.
     #[must_use]
-    pub fn is_guessed(clip: &Clip, syllable: usize) -> bool {
+    pub(crate) fn is_guessed(clip: &Clip, syllable: usize) -> bool {
         clip.timing.guessed && clip.score.pins.binary_search(&syllable).is_err()
     }
 }
 
 /// What a key sets, in words.
 #[must_use]
-pub fn value_text(value: &KeyValue) -> String {
+pub(crate) fn value_text(value: &KeyValue) -> String {
     match value {
         KeyValue::Emotion(ratios) => {
             let said: Vec<String> = crate::pose::Emotion::ALL[1..]
@@ -277,7 +277,7 @@ pub fn value_text(value: &KeyValue) -> String {
 
 /// A number with up to three decimals.
 #[must_use]
-pub fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let rounded = (value * 1e3).round() / 1e3;
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
 }

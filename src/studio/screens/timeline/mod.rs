@@ -34,7 +34,7 @@ use crate::studio::widgets::picture::FacePicture;
 use crate::studio::widgets::prompt::{Prompt, Purpose, Spotted};
 
 /// The timeline of a clip.
-pub struct TimelineScreen {
+pub(crate) struct TimelineScreen {
     project: SharedProject,
     editor: SharedEditor,
     face: FacePicture,
@@ -43,7 +43,7 @@ pub struct TimelineScreen {
 impl TimelineScreen {
     /// A clip that was just opened.
     #[must_use]
-    pub fn new(project: SharedProject, editor: SharedEditor) -> Self {
+    pub(crate) fn new(project: SharedProject, editor: SharedEditor) -> Self {
         Self { project, editor, face: FacePicture::default() }
     }
 

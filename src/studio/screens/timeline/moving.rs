@@ -22,7 +22,7 @@ pub(super) fn execute(desk: &mut ClipDesk<'_, '_>, action: Action) -> bool {
         Action::Lane(by) => editor.lane = editor.lane.moved(by),
         Action::Zoom(by) => editor.window = editor.window.zoomed(by, editor.cursor, duration),
         Action::Fit => editor.window = Window::whole(duration),
-        Action::Syllable(by) if !editor.places.is_empty() => editor.to_syllable_or_place(clip, by),
+        Action::Syllable(by) if !editor.places.is_empty() => editor.step_syllable_or_place(clip, by),
         Action::Syllable(by) => to_syllable(desk, by),
         Action::Key(by) => to_key(desk, by),
         Action::Play => play(desk),

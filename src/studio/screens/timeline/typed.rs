@@ -6,7 +6,7 @@ use crate::timeline::{Ease, Key, KeyValue, Range, Track};
 
 /// What may be typed for a key of a track.
 #[must_use]
-pub const fn key_help(track: Track) -> &'static str {
+pub(crate) const fn key_help(track: Track) -> &'static str {
     match track {
         Track::Mouth => "one of m f h a i u e o n, or rest",
         Track::Emotion => {
@@ -26,14 +26,14 @@ pub const fn key_help(track: Track) -> &'static str {
 }
 
 /// What may be typed for an edit of a stretch.
-pub const RANGE_HELP: &str = "such as happy *1.2 +0.05, sadness *0, smooth 0.12";
+pub(crate) const RANGE_HELP: &str = "such as happy *1.2 +0.05, sadness *0, smooth 0.12";
 
 /// Reads a key's value. Words at its end say how it goes on: `linear`, `smooth`, `hold`; and `ends`: the record
 /// holds again after it.
 ///
 /// # Errors
 /// In one line: what was typed, and what is allowed.
-pub fn key(track: Track, text: &str, time: f64) -> Result<Key, String> {
+pub(crate) fn key(track: Track, text: &str, time: f64) -> Result<Key, String> {
     let mut words: Vec<&str> = text.split([' ', ',', '，', '、']).filter(|w| !w.is_empty()).collect();
     let mut key = Key::new(time, KeyValue::Blink(0.0));
     while let Some(word) = words.last() {
@@ -70,7 +70,7 @@ pub fn key(track: Track, text: &str, time: f64) -> Result<Key, String> {
 
 /// A key as it would be typed.
 #[must_use]
-pub fn key_text(key: &Key) -> String {
+pub(crate) fn key_text(key: &Key) -> String {
     let mut text = value_text(&key.value).trim_end_matches(" s").to_owned();
     match key.ease {
         Ease::Smooth => {}
@@ -162,7 +162,7 @@ fn numbers(words: &[&str]) -> Result<Vec<f64>, String> {
 ///
 /// # Errors
 /// In one line: what was typed, and what is allowed.
-pub fn range(text: &str, from: f64, to: f64) -> Result<Range, String> {
+pub(crate) fn range(text: &str, from: f64, to: f64) -> Result<Range, String> {
     let mut range = Range::new(from, to);
     for part in text.split([',', '，']).map(str::trim).filter(|p| !p.is_empty()) {
         let mut words = part.split_whitespace();
@@ -197,7 +197,7 @@ pub fn range(text: &str, from: f64, to: f64) -> Result<Range, String> {
 
 /// An edit of a stretch in words, as it would be typed.
 #[must_use]
-pub fn range_text(range: &Range) -> String {
+pub(crate) fn range_text(range: &Range) -> String {
     let mut parts = Vec::new();
     for emotion in &Emotion::ALL[1..] {
         let (scale, offset) = (range.scale[emotion.index()], range.offset[emotion.index()]);

@@ -18,38 +18,38 @@ pub struct Window {
 impl Window {
     /// All of a clip.
     #[must_use]
-    pub fn whole(duration: f64) -> Self {
+    pub(crate) fn whole(duration: f64) -> Self {
         Self { from: 0.0, span: duration.max(SHORTEST) }
     }
 
     /// The end of it.
     #[must_use]
-    pub fn to(&self) -> f64 {
+    pub(crate) fn to(&self) -> f64 {
         self.from + self.span
     }
 
     /// Which of `columns` a time falls into; it may lie before the first or after the last.
     #[must_use]
-    pub fn column(&self, time: f64, columns: u16) -> i32 {
+    pub(crate) fn column(&self, time: f64, columns: u16) -> i32 {
         // A boundary that is a column's edge up to rounding lies in that column.
         ((time - self.from) / self.span * f64::from(columns) + 1e-6).floor().clamp(-1e6, 1e6) as i32
     }
 
     /// The same, where it is on the screen.
     #[must_use]
-    pub fn shown_column(&self, time: f64, columns: u16) -> Option<u16> {
+    pub(crate) fn shown_column(&self, time: f64, columns: u16) -> Option<u16> {
         u16::try_from(self.column(time, columns)).ok().filter(|c| *c < columns)
     }
 
     /// The time at the left edge of a column.
     #[must_use]
-    pub fn time_of(&self, column: f64, columns: u16) -> f64 {
+    pub(crate) fn time_of(&self, column: f64, columns: u16) -> f64 {
         self.from + self.span * column / f64::from(columns.max(1))
     }
 
     /// Half or twice as much, the time `about` staying where it is.
     #[must_use]
-    pub fn zoomed(&self, steps: i32, about: f64, duration: f64) -> Self {
+    pub(crate) fn zoomed(&self, steps: i32, about: f64, duration: f64) -> Self {
         let span = (self.span * 0.5_f64.powi(steps)).clamp(SHORTEST.min(duration.max(1e-3)), duration.max(SHORTEST));
         let share = ((about - self.from) / self.span).clamp(0.0, 1.0);
         Self { from: about - share * span, span }.kept_in(duration)
@@ -57,7 +57,7 @@ impl Window {
 
     /// Moved as far as is needed for `time` to be on the screen: by a page, so that the next steps need nothing new.
     #[must_use]
-    pub fn following(&self, time: f64, duration: f64) -> Self {
+    pub(crate) fn following(&self, time: f64, duration: f64) -> Self {
         // The last instant stands on the right edge, which is still in sight.
         if time >= self.from - 1e-9 && (time < self.to() || (time - duration).abs() < 1e-9 && time <= self.to() + 1e-9)
         {

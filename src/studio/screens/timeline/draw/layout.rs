@@ -53,7 +53,7 @@ pub(in crate::studio) struct Layout {
 
 impl Layout {
     /// The layout of the timeline in a terminal that has room for it.
-    pub fn of(area: Rect, editor: &Editor, clip: &Clip, shell: &Shell) -> Self {
+    pub(crate) fn of(area: Rect, editor: &Editor, clip: &Clip, shell: &Shell) -> Self {
         let columns = area.width - NAMES - LETTERS;
         let shows_phones = editor.columns_a_phone(clip, columns).is_some_and(|c| c >= READABLE);
         // Head and foot take a line each; ruler, said, pinyin and mouth one each.
@@ -117,12 +117,12 @@ impl Layout {
     }
 
     /// How many columns of time there are.
-    pub fn columns(&self) -> u16 {
+    pub(crate) fn columns(&self) -> u16 {
         self.ruler.width
     }
 
     /// The last row of the lanes.
-    pub fn bottom(&self) -> u16 {
+    pub(crate) fn bottom(&self) -> u16 {
         self.keys.last().map_or(self.curves.bottom(), |(_, r)| r.bottom())
     }
 }

@@ -43,12 +43,12 @@ pub(super) struct Dots {
 }
 
 impl Dots {
-    pub fn new(area: Rect) -> Self {
+    pub(crate) fn new(area: Rect) -> Self {
         Self { area, bits: vec![0; usize::from(area.width) * usize::from(area.height)] }
     }
 
     /// Sets a dot: 0 ≤ x < 2 × width, 0 ≤ y < 4 × height from the top.
-    pub fn set(&mut self, x: usize, y: usize) {
+    pub(crate) fn set(&mut self, x: usize, y: usize) {
         const BITS: [[u8; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
         let width = usize::from(self.area.width);
         if x / 2 < width
@@ -59,7 +59,7 @@ impl Dots {
     }
 
     /// Puts the cells that have dots.
-    pub fn put(&self, buffer: &mut Buffer, style: Style) {
+    pub(crate) fn put(&self, buffer: &mut Buffer, style: Style) {
         for (place, bits) in self.area.positions().zip(&self.bits) {
             if *bits != 0
                 && let Some(cell) = buffer.cell_mut(place)
