@@ -8,6 +8,7 @@ mod file;
 pub mod find;
 mod lips;
 mod measure;
+pub mod net;
 mod point;
 mod point_row;
 pub mod rig;
