@@ -12,7 +12,7 @@ impl Score {
     ///
     /// # Errors
     /// With the line, what was found and what is allowed.
-    pub(crate) fn parse(text: &str) -> Result<Self> {
+    pub fn parse(text: &str) -> Result<Self> {
         let file: File = from_toml(text)?;
         let line_of = |span: std::ops::Range<usize>| 1 + text[..span.start.min(text.len())].matches('\n').count();
         // TOML's integers end there, so a larger seed could be read and not written.

@@ -68,33 +68,23 @@ impl Candidate {
     }
 }
 
-/// Finds the face in a photo. Points that a hand has set are kept exactly, and pull the others; three or more of
-/// them say where the face is.
-///
-/// # Errors
-/// When there is no face that is seen from the front, large enough and upright, or there are two.
-pub fn find(photo: &Photo, hands: &[(P, Point)]) -> Result<Found, Refusal> {
-    let model = Model::learned();
-    let (small, step) = photo.at_most(WORKING_SIDE);
-    let picture = Pyramid::of(&small, step);
-    let known = model.known(photo, hands);
-    if let Some(frame) = model.frame_by_hand(hands) {
-        let rough = model.roughly(&picture, frame, 0.0, &known);
-        let close = model.closely(photo, &rough, &known);
-        let mut found = model.given(&close, hands);
-        if close.close < 0.0 {
-            found.doubts.push(Doubt::Unusual);
-        }
-        return Ok(found);
-    }
-    let mut rough = model.candidates(&picture, &known).into_iter();
-    let Some(first) = rough.next() else { return Err(model.nothing(&picture)) };
-    let close = model.closely(photo, &first, &known);
+/// The face that the cascade finds by itself.
+pub(super) fn by_cascade(
+    model: &Model,
+    photo: &Photo,
+    picture: &Pyramid,
+    step: f64,
+    hands: &[(P, Point)],
+    known: &[Known],
+) -> Result<Found, Refusal> {
+    let mut rough = model.candidates(picture, known).into_iter();
+    let Some(first) = rough.next() else { return Err(model.nothing(picture)) };
+    let close = model.closely(photo, &first, known);
     let found = model.given(&close, hands);
     let pupils = close.fit.frame.scale();
     if close.total() < ENOUGH {
         let something = close.window > 0.5 && close.total() > -0.5;
-        return Err(if something { unclear(&found) } else { model.nothing(&picture) });
+        return Err(if something { unclear(&found) } else { model.nothing(picture) });
     }
     if pupils / step < SMALL {
         return Err(Refusal::TooSmall(pupils / step));
@@ -163,12 +153,12 @@ impl Model {
     }
 
     /// Which of the learned points a feature point is; none for those that are placed by rule and for hair.
-    fn learned_index(&self, point: P) -> Option<usize> {
+    pub(super) fn learned_index(&self, point: P) -> Option<usize> {
         let before = BY_RULE.iter().filter(|r| r.index() < point.index()).count();
         (point.index() < P::FIXED && !BY_RULE.contains(&point)).then(|| point.index() - before)
     }
 
-    fn known(&self, photo: &Photo, hands: &[(P, Point)]) -> Vec<Known> {
+    pub(super) fn known(&self, photo: &Photo, hands: &[(P, Point)]) -> Vec<Known> {
         let within = |at: &Point| {
             let (w, h) = (photo.width() as f64, photo.height() as f64);
             (-w..2.0 * w).contains(&at.x) && (-h..2.0 * h).contains(&at.y)
@@ -178,7 +168,7 @@ impl Model {
     }
 
     /// Where a face is of which a hand has set three points or more that lie apart.
-    fn frame_by_hand(&self, hands: &[(P, Point)]) -> Option<Similarity> {
+    pub(super) fn frame_by_hand(&self, hands: &[(P, Point)]) -> Option<Similarity> {
         let pairs: Vec<(Point, Point)> =
             hands.iter().filter_map(|(p, at)| Some((self.shapes.mean[self.learned_index(*p)?], *at))).collect();
         let (means, places): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
@@ -187,10 +177,14 @@ impl Model {
     }
 
     /// The 47 points and what else is said of a fit.
-    fn given(&self, candidate: &Candidate, hands: &[(P, Point)]) -> Found {
+    pub(super) fn given(&self, candidate: &Candidate, hands: &[(P, Point)]) -> Found {
+        self.described(self.points_of(candidate), candidate, hands)
+    }
+
+    /// The points of a fit, with those that are placed by rule still to come.
+    pub(super) fn points_of(&self, candidate: &Candidate) -> [Placed; P::FIXED] {
         let fit = &candidate.fit;
         let places = fit.places();
-        let unit = fit.frame.scale();
         let guess = Placed { at: Point::ORIGIN, confidence: 0.0, how: How::Rule };
         let mut points = [guess; P::FIXED];
         for point in P::fixed() {
@@ -201,6 +195,17 @@ impl Model {
             // is about 20 %.
             points[point.index()] = Placed { at: places[n], confidence: 1.0 / (1.0 + error / 0.06), how: How::Found };
         }
+        points
+    }
+
+    /// Points with those that follow from them, and what else is said of them and of the fit they are of.
+    pub(super) fn described(
+        &self,
+        mut points: [Placed; P::FIXED],
+        candidate: &Candidate,
+        hands: &[(P, Point)],
+    ) -> Found {
+        let unit = candidate.fit.frame.scale();
         let set = |points: &mut [Placed; P::FIXED]| {
             for (point, at) in hands.iter().filter(|(p, _)| p.index() < P::FIXED) {
                 points[point.index()] = Placed { at: *at, confidence: 1.0, how: How::Hand };

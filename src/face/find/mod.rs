@@ -4,9 +4,11 @@
 //! It owns what was learned of faces. It reads no files, and of colour it knows only luma. `tests/learn/faces.rs` is
 //! where its numbers come from.
 
+mod by_net;
 mod cascade;
 mod channels;
 mod detector;
+mod finder;
 mod fit;
 mod given;
 mod looks;
@@ -29,8 +31,9 @@ pub mod training {
     pub use super::weights::Matrix;
 }
 
+pub use finder::find;
 pub use fit::{Fit, Known};
-pub use given::{Anchors, Found, find, find_from};
+pub use given::{Anchors, Found, find_from};
 pub use model::Model;
 pub use pyramid::Pyramid;
 pub use refusal::{Doubt, Refusal};

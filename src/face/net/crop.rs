@@ -9,8 +9,9 @@ const SMALLEST_SIDE: usize = 160;
 
 /// A photo and its halves, quarters and so on, for crops without aliasing.
 #[derive(Debug, Clone)]
-pub struct Levels {
-    levels: Vec<Photo>,
+pub struct Levels<'a> {
+    photo: &'a Photo,
+    halves: Vec<Photo>,
 }
 
 /// A square of a photo.
@@ -33,24 +34,23 @@ pub(super) enum Beyond {
     Nearest,
 }
 
-impl Levels {
+impl<'a> Levels<'a> {
     /// The levels of a photo.
     #[must_use]
-    pub fn of(photo: &Photo) -> Self {
-        let mut levels = Vec::new();
-        let mut last = photo;
-        while last.width().min(last.height()) > SMALLEST_SIDE {
-            levels.push(halve(last));
-            last = &levels[levels.len() - 1];
+    pub fn of(photo: &'a Photo) -> Self {
+        let mut halves: Vec<Photo> = Vec::new();
+        while let last = halves.last().unwrap_or(photo)
+            && last.width().min(last.height()) > SMALLEST_SIDE
+        {
+            halves.push(halve(last));
         }
-        levels.insert(0, photo.clone());
-        Self { levels }
+        Self { photo, halves }
     }
 
     /// Width and height of the photo, in pixels.
     #[must_use]
     pub fn size(&self) -> [f64; 2] {
-        [self.levels[0].width() as f64, self.levels[0].height() as f64]
+        [self.photo.width() as f64, self.photo.height() as f64]
     }
 
     /// A square as `side` × `side` pixels, row by row, red, green and blue from `low` to `high`, interpolated bilinearly on
@@ -58,10 +58,11 @@ impl Levels {
     pub(super) fn crop(&self, square: &Square, side: usize, [low, high]: [f32; 2], beyond: Beyond) -> Vec<f32> {
         let step = square.side / side as f64;
         let mut number = 0;
-        while step >= f64::from(2 << number) && number + 1 < self.levels.len() {
+        while step >= f64::from(2 << number) && number < self.halves.len() {
             number += 1;
         }
-        let (level, scale) = (&self.levels[number], 1.0 / f64::from(1 << number));
+        let level = if number == 0 { self.photo } else { &self.halves[number - 1] };
+        let scale = 1.0 / f64::from(1 << number);
         let (sin, cos) = libm::sincos(square.turn);
         let unit = (high - low) / 255.0;
         let (right, bottom) = ((level.width() - 1) as f64, (level.height() - 1) as f64);

@@ -58,7 +58,7 @@ fn net() -> &'static Net {
 /// Faces in a photo, the highest score first: in the whole picture; if there are none, in tiles of a half and then two
 /// sevenths of its longer side.
 #[must_use]
-pub fn detect(levels: &Levels, scratch: &mut Scratch) -> Vec<Detection> {
+pub fn detect(levels: &Levels<'_>, scratch: &mut Scratch) -> Vec<Detection> {
     let [width, height] = levels.size();
     let centre = Point::new((width - 1.0) / 2.0, (height - 1.0) / 2.0);
     let whole = Square { centre, side: width.max(height), turn: 0.0 };
@@ -82,7 +82,7 @@ pub fn detect(levels: &Levels, scratch: &mut Scratch) -> Vec<Detection> {
 
 /// The highest score of a face in the whole picture turned by quarter turns clockwise, 0 to 3.
 #[must_use]
-pub fn scores_by_turn(levels: &Levels, scratch: &mut Scratch) -> [f32; 4] {
+pub fn scores_by_turn(levels: &Levels<'_>, scratch: &mut Scratch) -> [f32; 4] {
     let [width, height] = levels.size();
     let centre = Point::new((width - 1.0) / 2.0, (height - 1.0) / 2.0);
     [0.0, 1.0, 2.0, 3.0].map(|quarters| {
@@ -101,7 +101,7 @@ fn tile_centres(length: f64, side: f64) -> Vec<f64> {
 }
 
 /// Anchors of a square with a score of at least `least`, before they are merged.
-fn detect_in(levels: &Levels, square: &Square, least: f32, scratch: &mut Scratch) -> Vec<Detection> {
+fn detect_in(levels: &Levels<'_>, square: &Square, least: f32, scratch: &mut Scratch) -> Vec<Detection> {
     let input = levels.crop(square, SIDE, [-1.0, 1.0], Beyond::Black);
     let outputs = net().run(&input, scratch);
     let [numbers, scores] = &outputs[..] else { return Vec::new() };

@@ -60,7 +60,7 @@ fn net() -> &'static Net {
 
 /// The landmarks of the face in a square of a photo.
 #[must_use]
-pub fn mesh(levels: &Levels, square: &Square, scratch: &mut Scratch) -> Mesh {
+pub fn mesh(levels: &Levels<'_>, square: &Square, scratch: &mut Scratch) -> Mesh {
     let input = levels.crop(square, SIDE, [0.0, 1.0], Beyond::Nearest);
     let outputs = net().run(&input, scratch);
     let [surface, finer @ .., presence] = &outputs[..] else { unreachable!("the net has seven outputs") };

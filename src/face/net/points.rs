@@ -12,6 +12,9 @@ use crate::geometry::{Point, Similarity};
 /// Landmarks of the pupils, at the image's left and right: the centres of the irises.
 const PUPILS: [usize; 2] = [468, 473];
 
+/// Landmarks before the ears, at the image's left and right.
+const SIDES: [usize; 2] = [234, 454];
+
 /// A row of the table.
 #[derive(Debug, Clone, Copy)]
 struct Row {
@@ -39,6 +42,15 @@ impl Mesh {
     #[must_use]
     pub fn frame(&self) -> Similarity {
         Similarity::spanning(self.points[PUPILS[0]], self.points[PUPILS[1]])
+    }
+
+    /// Angle of the head from side to side, in degrees: above 0 the nose points to the image's right. From the depths of
+    /// the two sides of the face, the head upright.
+    #[must_use]
+    pub fn yaw(&self) -> f64 {
+        let across = self.points[SIDES[1]] - self.points[SIDES[0]];
+        let deeper = self.depths[SIDES[1]] - self.depths[SIDES[0]];
+        libm::atan2(deeper, across.hypot()).to_degrees()
     }
 
     /// The feature points that a mesh has, 43 of the 47 that every face has, in pixels of the photo.

@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop and speak")]
 
+use super::points::true_eyes;
 use crate::support::test_data;
 use lianpu::face::FeaturePoint as P;
+use lianpu::face::find::find;
 use lianpu::face::net::{Levels, Net, NetError, Scratch, detect, mesh};
 use lianpu::geometry::Point;
 use lianpu::photo::Photo;
@@ -103,7 +105,8 @@ fn a_mesh_gives_the_points_of_the_london_people() {
     let mut scratch = Scratch::default();
     let mut sums = std::collections::BTreeMap::<String, (f64, u32)>::new();
     for path in &names {
-        let levels = Levels::of(&Photo::read(path).unwrap());
+        let photo = Photo::read(path).unwrap();
+        let levels = Levels::of(&photo);
         let found = detect(&levels, &mut scratch);
         assert_eq!(found.len(), 1, "{}", path.display());
         let first = mesh(&levels, &found[0].square(), &mut scratch);
@@ -123,4 +126,30 @@ fn a_mesh_gives_the_points_of_the_london_people() {
     }
     println!("\n{} people, inner {:.2} %", names.len(), 100.0 * sum / f64::from(count));
     assert!(sum / f64::from(count) < 0.025);
+}
+
+#[test]
+#[cfg_attr(not(has_data), ignore = "needs LIANPU_DATA")]
+fn faces_in_any_light_and_mood_are_found() {
+    let Some(folder) = test_data::find("faces/imm240") else { return };
+    let mut names: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    names.retain(|p| p.extension().is_some_and(|e| e == "jpg"));
+    names.sort();
+    let mut refused = Vec::new();
+    for name in &names {
+        // Smiles, light from one side, free expressions: 9 of these 80 the cascade does not find by itself.
+        let photo = Photo::read(name).unwrap();
+        let found = match find(&photo, &[]) {
+            Ok(found) => found,
+            Err(refusal) => {
+                refused.push(format!("{}: {refusal}", name.display()));
+                continue;
+            }
+        };
+        let eyes = [P::P3_6, P::P3_5].map(|p| found.points[p.index()].at);
+        let (left, right) = true_eyes(name, (photo.width(), photo.height()));
+        let off = eyes[0].distance(left).max(eyes[1].distance(right)) / left.distance(right);
+        assert!(off < 0.2, "{}: an eye is {off:.3} pupil distances off", name.display());
+    }
+    assert!(names.len() == 80 && refused.len() <= 1, "{refused:?}");
 }

@@ -51,7 +51,7 @@ fn apart(a: &Found, b: &Found, back: impl Fn(Point) -> Point) -> f64 {
 }
 
 /// The middles of the eyes' eight outline points, by the photo's `.asf`.
-fn true_eyes(photo: &Path, size: (usize, usize)) -> (Point, Point) {
+pub fn true_eyes(photo: &Path, size: (usize, usize)) -> (Point, Point) {
     let text = std::fs::read_to_string(photo.with_extension("asf")).unwrap();
     let rows: Vec<Point> = text
         .lines()

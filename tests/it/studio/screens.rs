@@ -280,7 +280,9 @@ fn a_save_puts_back_what_was_deleted_meanwhile() {
     let gone = ["lianpu.toml", "clips/nihao/script.txt", "clips/nihao/timing.TextGrid", "clips/nihao/score.toml"];
     let text = |name: &str| std::fs::read_to_string(root.join(name)).unwrap();
     let read = || {
-        (lianpu::timing::read(&root.join(gone[2])).unwrap(), lianpu::timeline::Score::parse(&text(gone[3])).unwrap())
+        let mut score = lianpu::timeline::Score::parse(&text(gone[3])).unwrap();
+        score.keys.sort_by(|a, b| a.time.total_cmp(&b.time));
+        (lianpu::timing::read(&root.join(gone[2])).unwrap(), score)
     };
     let read_before = read();
     let before: Vec<_> = gone.iter().map(|name| std::fs::read(root.join(name)).unwrap()).collect();
