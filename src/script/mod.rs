@@ -1,9 +1,11 @@
 //! A script made speakable: text in characters, Pinyin, Zhuyin or English becomes syllables with their readings and the
 //! mouth shapes each passes through (thesis 5.2), and the share of its time at which each shape starts (5.3).
 //!
-//! The way of a script: `tokens` cuts it into pieces, `detect` tells what its Latin letters are, `say` reads every piece:
-//! characters by `words` and `han`, Pinyin by `romanised`, Zhuyin by `zhuyin`, English by `english`, digits by `numbers`
-//! and `numerals`. `sound` is the table of syllables that all of Mandarin ends in.
+//! A script goes through three stages. `scan` cuts it into tokens, and each token carries its candidates (`token`): its
+//! character, its Zhuyin (`zhuyin`), its syllables in the two romanisations (`romanised`, from `letters`), its English
+//! parts, its number (`number`), its readings in braces (`label`). `detect` chooses the system of the script from the
+//! candidates. `say` makes syllables of the chosen ones: characters by `words` and `han`, English by `english`. `sound`
+//! is the table of syllables that all of Mandarin ends in.
 //!
 //! It knows nothing of sound files: when a syllable is spoken is for the timing and speech rooms. The licences of its data are in
 //! `NOTICE.md` beside it.
@@ -12,21 +14,22 @@ mod detect;
 mod english;
 mod han;
 mod label;
+mod letters;
 mod marks;
-mod numbers;
-mod numerals;
+mod number;
 mod onsets;
 mod onsets_in_phones;
 mod phone;
 mod reading;
 mod romanised;
 mod say;
+mod scan;
 mod segment;
 mod sound;
 mod spelling;
 mod syllable;
 mod system;
-mod tokens;
+mod token;
 mod tone;
 mod words;
 mod written;
@@ -44,5 +47,5 @@ pub use segment::segments;
 pub use sound::{FinalClass, InitialClass, Sound};
 pub use syllable::{Lang, Syllable};
 pub use system::System;
-pub use tokens::Pause;
-pub(crate) use written::{without_braces, written_words};
+pub use token::Pause;
+pub use written::{WrittenWord, without_braces, written_words};

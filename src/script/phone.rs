@@ -40,13 +40,19 @@ impl Phone {
 
     /// Its ARPAbet name.
     #[must_use]
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         TABLE[usize::from(self.0)].name
+    }
+
+    /// Whether it can carry a syllable.
+    #[must_use]
+    pub fn is_vowel(self) -> bool {
+        self.name().starts_with(['A', 'E', 'I', 'O', 'U'])
     }
 
     /// Its mouth shapes by itself; none for h′, the consonants made behind the lips.
     #[must_use]
-    pub(crate) fn shapes(self) -> &'static [MouthShape] {
+    pub fn shapes(self) -> &'static [MouthShape] {
         &TABLE[usize::from(self.0)].shapes
     }
 }

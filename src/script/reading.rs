@@ -1,6 +1,7 @@
 //! A reading: one syllable with or without its tone, in every spelling it may be written and printed in.
 
 use std::fmt;
+use std::ops::Range;
 
 use super::sound::Sound;
 use super::tone;
@@ -13,11 +14,24 @@ pub struct Reading {
     tone: Option<u8>,
 }
 
+/// One syllable of a word or label: its reading and its bytes in that word.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Written {
+    pub(super) reading: Reading,
+    pub(super) span: Range<usize>,
+}
+
 impl Reading {
     /// A syllable with a tone. A number that is no tone counts as none.
     #[must_use]
-    pub(crate) fn new(sound: Sound, tone: Option<u8>) -> Self {
+    pub fn new(sound: Sound, tone: Option<u8>) -> Self {
         Self { sound, tone: tone.filter(|t| (1..=5).contains(t)) }
+    }
+
+    /// The suffix of erhua, `r5`: ㄦ, which stays a syllable of its own.
+    #[must_use]
+    pub fn erhua() -> Option<Self> {
+        Some(Self::new(Sound::from_hanyu("r")?, Some(5)))
     }
 
     /// The reading of one syllable as the data files write it: Hanyu Pinyin with ü and a digit.
@@ -35,7 +49,7 @@ impl Reading {
 
     /// The tone, 1 to 5, where it is known.
     #[must_use]
-    pub(crate) fn tone(&self) -> Option<u8> {
+    pub fn tone(&self) -> Option<u8> {
         self.tone
     }
 
@@ -53,7 +67,7 @@ impl Reading {
 
     /// Zhuyin as it is usually written: no mark for the first tone, the dot of the neutral tone first.
     #[must_use]
-    pub(crate) fn zhuyin(&self) -> String {
+    pub fn zhuyin(&self) -> String {
         let (symbols, tone) = (self.sound.zhuyin(), self.tone.unwrap_or(0));
         let mark = tone::zhuyin_mark(tone);
         if tone == 5 { format!("{mark}{symbols}") } else { format!("{symbols}{mark}") }

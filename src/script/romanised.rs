@@ -1,119 +1,93 @@
-//! A word in Hanyu or Tongyong Pinyin taken apart into syllables: tone marks or digits or none, ü as ü, v or u:,
-//! apostrophes and hyphens, several syllables written as one word.
+//! The two romanisations of a word: Hanyu and Tongyong Pinyin, several syllables written as one word.
 //!
-//! Which of the two romanisations a script uses is `detect`'s to say.
+//! Which of the two a script uses is `detect`'s to say.
 
-use std::ops::Range;
+use std::cell::OnceCell;
 
-use super::reading::Reading;
+use super::letters::{self, Chunk, Letter};
+use super::reading::{Reading, Written};
 use super::sound::Sound;
 use super::system::System;
-use super::tone::{self, Part};
 
-/// One syllable of a word and its bytes in it.
+/// The candidates of one word in Hanyu and in Tongyong Pinyin. Its letters are read once; the syllables of a
+/// romanisation are found when they are first needed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Written {
-    pub(super) reading: Reading,
-    pub(super) span: Range<usize>,
+pub(super) struct Romanised {
+    chunks: Vec<Chunk>,
+    hanyu: OnceCell<Option<Vec<Written>>>,
+    tongyong: OnceCell<Option<Vec<Written>>>,
+    /// Whether marks or digits show tones.
+    shows_tones: bool,
+    /// Whether a digit of the neutral tone is in it.
+    has_neutral_digit: bool,
 }
 
-/// A letter of a word, with what stands on it and where it is.
-#[derive(Debug, Clone)]
-struct Letter {
-    c: char,
-    tone: Option<u8>,
-    span: Range<usize>,
-}
+impl Romanised {
+    /// Reads the letters of a word.
+    pub(super) fn of(text: &str) -> Self {
+        let is_short = text.len() <= LONGEST * 4;
+        Self {
+            chunks: is_short.then(|| letters::chunks(text)).flatten().unwrap_or_default(),
+            hanyu: OnceCell::new(),
+            tongyong: OnceCell::new(),
+            shows_tones: letters::shows_tones(text),
+            has_neutral_digit: text.contains(['5', '0']),
+        }
+    }
 
-/// Letters between two forced boundaries, and the digit after them.
-#[derive(Debug, Default)]
-struct Chunk {
-    letters: Vec<Letter>,
-    digit: Option<(u8, usize)>,
+    /// Its syllables in one romanisation, with their bytes in the word; nothing where they are none.
+    pub(super) fn in_system(&self, system: System) -> Option<&[Written]> {
+        let candidate = if system == System::Tongyong { &self.tongyong } else { &self.hanyu };
+        candidate.get_or_init(|| self.syllables(system)).as_deref()
+    }
+
+    fn syllables(&self, system: System) -> Option<Vec<Written>> {
+        let mut out = Vec::new();
+        for chunk in &self.chunks {
+            out.extend(syllables(chunk, system)?);
+        }
+        (!out.is_empty()).then_some(out)
+    }
+
+    /// Its syllables in Hanyu Pinyin, else in Tongyong Pinyin.
+    pub(super) fn in_either(&self) -> Option<&[Written]> {
+        self.in_system(System::Hanyu).or_else(|| self.in_system(System::Tongyong))
+    }
+
+    /// The romanisation it is in where it can be in one alone.
+    pub(super) fn only_system(&self) -> Option<System> {
+        match (self.in_system(System::Hanyu), self.in_system(System::Tongyong)) {
+            (Some(_), None) => Some(System::Hanyu),
+            (None, Some(_)) => Some(System::Tongyong),
+            _ => None,
+        }
+    }
+
+    /// Whether the two romanisations read it as different syllables. `e` counts: where Tongyong is written without ê it
+    /// may be ㄝ.
+    pub(super) fn differs(&self) -> bool {
+        let (Some(hanyu), Some(tongyong)) = (self.in_system(System::Hanyu), self.in_system(System::Tongyong)) else {
+            return false;
+        };
+        let lone_e = |w: &Written| w.reading.sound().hanyu() == "e";
+        hanyu.len() != tongyong.len()
+            || hanyu.iter().zip(tongyong).any(|(h, t)| h.reading.sound() != t.reading.sound() || lone_e(h))
+    }
+
+    /// Whether marks or digits show tones, of whatever it is a word.
+    pub(super) fn shows_tones(&self) -> bool {
+        self.shows_tones
+    }
+
+    /// Whether it is Pinyin that shows its tones, and no foreign name with an accent: half of `syllables` must.
+    pub(super) fn is_toned(&self, syllables: &[Written]) -> bool {
+        let toned = syllables.iter().filter(|w| w.reading.tone().is_some_and(|t| t < 5)).count();
+        self.shows_tones && (2 * toned >= syllables.len() || self.has_neutral_digit)
+    }
 }
 
 /// The longest word that is tried: the longest in a dictionary of Pinyin are below 40 letters.
 const LONGEST: usize = 80;
-
-/// The syllables of a word, or nothing where it is not made of syllables of this romanisation.
-pub(super) fn word(text: &str, system: System) -> Option<Vec<Written>> {
-    if text.len() > LONGEST * 4 {
-        return None;
-    }
-    let mut out = Vec::new();
-    for chunk in chunks(text)? {
-        out.extend(syllables(&chunk, system)?);
-    }
-    (!out.is_empty()).then_some(out)
-}
-
-/// Whether a word shows its tones, by marks or by digits.
-pub(super) fn shows_tones(text: &str) -> bool {
-    text.chars().any(|c| c.is_ascii_digit())
-        || text.chars().any(|c| tone::parts(c).is_some_and(|p| p.iter().any(|p| matches!(p, Part::Mark(_)))))
-}
-
-/// The character that may stand between two syllables of a word.
-pub(super) fn is_joint(c: char) -> bool {
-    matches!(c, '\'' | '’' | '‘' | 'ʼ' | '`' | '-' | '‐' | '‑' | '·')
-}
-
-fn chunks(text: &str) -> Option<Vec<Chunk>> {
-    let mut chunks = vec![Chunk::default()];
-    for (at, c) in text.char_indices() {
-        let c = fold_width(c);
-        let end = at + text[at..].chars().next().map_or(1, char::len_utf8);
-        let chunk = chunks.last_mut()?;
-        if is_joint(c) {
-            if chunk.letters.is_empty() {
-                return None;
-            }
-            chunks.push(Chunk::default());
-        } else if let Some(tone) = tone::of_digit(c) {
-            if chunk.letters.is_empty() {
-                return None;
-            }
-            chunk.digit = Some((tone, end));
-            chunks.push(Chunk::default());
-        } else if c == ':' {
-            let last = chunk.letters.last_mut().filter(|l| l.c == 'u')?;
-            last.c = 'ü';
-            last.span.end = end;
-        } else {
-            for part in tone::parts(c)? {
-                match part {
-                    Part::Letter('v') => chunk.letters.push(Letter { c: 'ü', tone: None, span: at..end }),
-                    Part::Letter(c) => chunk.letters.push(Letter { c, tone: None, span: at..end }),
-                    Part::Mark(tone) => {
-                        let last = chunk.letters.last_mut().filter(|l| l.tone.is_none())?;
-                        last.tone = Some(tone);
-                        last.span.end = end;
-                    }
-                    Part::Umlaut => {
-                        let last = chunk.letters.last_mut().filter(|l| l.c == 'u')?;
-                        last.c = 'ü';
-                        last.span.end = end;
-                    }
-                    Part::Hat => {
-                        let last = chunk.letters.last_mut().filter(|l| l.c == 'e')?;
-                        last.c = 'ê';
-                        last.span.end = end;
-                    }
-                }
-            }
-        }
-    }
-    chunks.retain(|c| !c.letters.is_empty());
-    Some(chunks)
-}
-
-/// Letters and digits of East Asian full width as the plain ones.
-pub(super) fn fold_width(c: char) -> char {
-    match c {
-        '\u{FF01}'..='\u{FF5E}' => char::from_u32(c as u32 - 0xFEE0).unwrap_or(c),
-        _ => c,
-    }
-}
 
 fn syllables(chunk: &Chunk, system: System) -> Option<Vec<Written>> {
     let letters = &chunk.letters;
@@ -224,8 +198,13 @@ mod tests {
     use super::*;
 
     fn hanyu(text: &str) -> String {
-        let found = word(text, System::Hanyu).unwrap_or_default();
-        found.iter().map(|w| w.reading.pinyin()).collect::<Vec<_>>().join(" ")
+        let word = Romanised::of(text);
+        word.in_system(System::Hanyu)
+            .unwrap_or_default()
+            .iter()
+            .map(|w| w.reading.pinyin())
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 
     #[test]
@@ -253,17 +232,28 @@ mod tests {
     }
 
     #[test]
+    fn both_romanisations_are_candidates_of_one_word() {
+        let word = Romanised::of("ci2");
+        let sound = |system| word.in_system(system).map(|w| w[0].reading.sound().hanyu());
+        assert_eq!((sound(System::Hanyu), sound(System::Tongyong)), (Some("ci"), Some("qi")));
+        assert!(word.differs() && word.only_system().is_none() && word.shows_tones());
+        assert!(!Romanised::of("ma").differs() && Romanised::of("e").differs());
+    }
+
+    #[test]
     fn spans_cover_the_syllables_as_written() {
-        let found = word("Xī'ān", System::Hanyu).unwrap();
+        let word = Romanised::of("Xī'ān");
+        let found = word.in_system(System::Hanyu).unwrap();
         assert_eq!(found.iter().map(|w| w.span.clone()).collect::<Vec<_>>(), [0..3, 4..7]);
     }
 
     #[test]
     fn what_is_no_pinyin_is_none() {
         for text in ["hello", "", "'", "3", "ni3'", "bck", "strength"] {
-            let found = word(text, System::Hanyu);
+            let word = Romanised::of(text);
+            let found = word.in_system(System::Hanyu);
             assert!(found.is_none() || text == "ni3'", "{text}: {found:?}");
         }
-        assert!(word("jhih", System::Hanyu).is_none() && word("jhih", System::Tongyong).is_some());
+        assert_eq!(Romanised::of("jhih").only_system(), Some(System::Tongyong));
     }
 }

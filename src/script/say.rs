@@ -1,17 +1,18 @@
-//! From the pieces of a script to its syllables: characters by their words, Latin letters by what the script is in,
+//! From the tokens of a script to its syllables: characters by their words, Latin letters by the chosen candidate,
 //! numbers in the language around them, readings in braces before all.
 
 use std::ops::Range;
 
-use super::detect::{self, Found, line_of};
-use super::label;
-use super::reading::Reading;
-use super::romanised;
+use super::detect::{self, Choice, Chosen};
+use super::label::Label;
+use super::number::{self, Number};
+use super::reading::{Reading, Written};
+use super::scan::scan;
 use super::syllable::Syllable;
 use super::system::System;
-use super::tokens::{self, Kind, Token};
+use super::token::{Kind, Part, PartKind, Token, Word};
 use super::words::Phrase;
-use super::{english, han, numbers, numerals, zhuyin};
+use super::{english, han};
 use crate::disk::{Fault, Result, Setting, message};
 
 /// The syllables of a script, in order, with their mouth shapes (thesis 5.2).
@@ -25,17 +26,20 @@ use crate::disk::{Fault, Result, Setting, message};
 /// # Errors
 /// When the romanisation is not told by the text or by `system`, or something in it cannot be read; with the line.
 pub fn syllables(text: &str, system: System) -> Result<Vec<Syllable>> {
-    let tokens = tokens::scan(text);
-    let found = detect::find(text, &tokens, system)?;
-    let han = || tokens.iter().filter_map(|t| if let Kind::Han(c) = t.kind { Some(c) } else { None });
-    let traditional =
-        han().filter(|c| han::is_traditional(*c)).count() > han().filter(|c| han::is_simplified(*c)).count();
-    let mut say = Say { text, system, found, traditional, out: Vec::new(), phrase: Vec::new() };
-    for (i, token) in tokens.iter().enumerate() {
-        say.token(token, i.checked_sub(1).and_then(|i| tokens.get(i)))?;
+    let tokens = scan(text);
+    let choice = detect::choose(text, &tokens, system)?;
+    let mut say = Say { text, choice, traditional: is_traditional(&tokens), out: Vec::new(), phrase: Vec::new() };
+    for token in &tokens {
+        say.token(token)?;
     }
     say.end_phrase();
     Ok(say.out)
+}
+
+/// Whether more characters show traditional writing than simplified.
+fn is_traditional(tokens: &[Token]) -> bool {
+    let han = || tokens.iter().filter_map(|t| if let Kind::Han(c) = t.kind { Some(c) } else { None });
+    han().filter(|c| han::is_traditional(*c)).count() > han().filter(|c| han::is_simplified(*c)).count()
 }
 
 /// A character on its way to a syllable.
@@ -47,8 +51,7 @@ struct Waiting {
 
 struct Say<'a> {
     text: &'a str,
-    system: System,
-    found: Found,
+    choice: Choice,
     traditional: bool,
     out: Vec<Syllable>,
     /// The characters since the last thing that was none: the neighbours that decide a reading.
@@ -56,59 +59,49 @@ struct Say<'a> {
 }
 
 impl Say<'_> {
-    fn token(&mut self, token: &Token, before: Option<&Token>) -> Result<()> {
-        let written = &self.text[token.span.clone()];
-        match token.kind {
-            Kind::Han(c) => self.phrase.push(Waiting { c, span: token.span.clone(), forced: None }),
-            Kind::Number if !self.found.english_numbers => self.number(written, token.span.clone()),
-            Kind::Forced => self.force(written, token, before)?,
-            Kind::Number => {
+    fn token(&mut self, token: &Token) -> Result<()> {
+        match &token.kind {
+            Kind::Han(c) => self.characters([*c], &token.span),
+            Kind::Number(number) if self.choice.english_numbers => {
                 self.end_phrase();
-                self.english_words(&numerals::read(written), &token.span);
+                self.english_number(number, &token.span);
             }
-            Kind::Word => {
-                if let Some(unit) = self.unit(written, before, token.span.start) {
-                    self.phrase.extend(unit.chars().map(|c| Waiting { c, span: token.span.clone(), forced: None }));
-                } else {
-                    self.end_phrase();
-                    self.word(written, token)?;
-                }
-            }
-            Kind::Zhuyin => {
+            Kind::Number(number) => self.mandarin_number(number, &token.span),
+            Kind::Forced { labels, after_han } => self.force(labels, *after_han, token)?,
+            Kind::Word(word) => match word.unit.filter(|_| !self.choice.english_numbers) {
+                Some(unit) => self.characters(unit.chars(), &token.span),
+                None => self.word(word, token)?,
+            },
+            Kind::Zhuyin(run) => {
                 self.end_phrase();
-                let run = zhuyin::run(written).ok_or_else(|| {
-                    self.fault(format!("`{written}` is not Zhuyin"), token.span.start)
+                let run = run.as_ref().ok_or_else(|| {
+                    self.fault(format!("`{}` is not Zhuyin", token.text), token)
                         .help("write each syllable with its symbols in order and its tone mark after them: ㄋㄧㄣˊ")
                 })?;
-                for (reading, span) in run {
-                    let span = token.span.start + span.start..token.span.start + span.end;
-                    self.out.push(Syllable::mandarin(&self.text[span.clone()], &reading, span));
-                }
+                self.written(run, token);
             }
             Kind::Break(pause) => {
                 self.end_phrase();
                 if let Some(last) = self.out.last_mut() {
-                    last.pause_after = last.pause_after.max(pause);
+                    last.pause_after = last.pause_after.max(*pause);
                 }
             }
         }
         Ok(())
     }
 
-    fn fault(&self, what: String, at: usize) -> Fault {
-        Fault::new(what).line(line_of(self.text, at))
+    fn fault(&self, what: String, token: &Token) -> Fault {
+        Fault::new(what).line(token.line_in(self.text))
     }
 
-    fn number(&mut self, written: &str, span: Range<usize>) {
+    /// Adds characters to the phrase, all of one place in the script.
+    fn characters(&mut self, characters: impl IntoIterator<Item = char>, span: &Range<usize>) {
+        self.phrase.extend(characters.into_iter().map(|c| Waiting { c, span: span.clone(), forced: None }));
+    }
+
+    fn mandarin_number(&mut self, number: &Number, span: &Range<usize>) {
         let before = self.phrase.last().map(|w| w.c);
-        let said = numbers::read(written, before, &self.text[span.end..]);
-        self.phrase.extend(said.chars().map(|c| Waiting { c, span: span.clone(), forced: None }));
-    }
-
-    /// The unit that letters directly after a number are, in a Chinese script.
-    fn unit(&self, written: &str, before: Option<&Token>, at: usize) -> Option<&'static str> {
-        let after_number = before.is_some_and(|b| b.kind == Kind::Number && b.span.end == at);
-        (after_number && !self.found.english_numbers).then(|| numbers::unit(written))?
+        self.characters(number::mandarin::read(number, before).chars(), span);
     }
 
     fn end_phrase(&mut self) {
@@ -122,17 +115,27 @@ impl Say<'_> {
         }
     }
 
+    /// Adds syllables that a token spells.
+    fn written(&mut self, syllables: &[Written], token: &Token) {
+        let start = token.span.start;
+        self.out.extend(syllables.iter().map(|Written { reading, span }| {
+            Syllable::mandarin(&token.text[span.clone()], reading, start + span.start..start + span.end)
+        }));
+    }
+
     /// Readings in braces: as many syllables as are in them, for the characters before them.
-    fn force(&mut self, written: &str, token: &Token, before: Option<&Token>) -> Result<()> {
+    fn force(&mut self, labels: &[Label], after_han: bool, token: &Token) -> Result<()> {
         let help = "write the reading of the character before the braces: 行{hang2}, 行{háng} or 行{ㄏㄤˊ}";
-        let at = token.span.start;
-        if !before.is_some_and(|b| matches!(b.kind, Kind::Han(_)) && b.span.end + 1 == at) {
-            return Err(self.fault(format!("`{{{written}}}` stands after no character"), at).help(help));
+        if !after_han {
+            return Err(self.fault(format!("`{{{}}}` stands after no character", token.text), token).help(help));
         }
-        let readings = self.forced_readings(written, at)?;
+        let mut readings = Vec::new();
+        for label in labels {
+            readings.extend(self.forced(label, token)?);
+        }
         let start = self.phrase.len().checked_sub(readings.len()).filter(|_| !readings.is_empty());
         let Some(start) = start else {
-            return Err(self.fault(format!("`{{{written}}}` is no reading"), at).help(help));
+            return Err(self.fault(format!("`{{{}}}` is no reading", token.text), token).help(help));
         };
         for (w, reading) in self.phrase[start..].iter_mut().zip(readings) {
             w.forced = Some(reading);
@@ -140,121 +143,88 @@ impl Say<'_> {
         Ok(())
     }
 
-    fn forced_readings(&self, written: &str, at: usize) -> Result<Vec<Reading>> {
-        let mut out = Vec::new();
-        for label in written.split_whitespace() {
-            if let Some(run) = label.chars().any(zhuyin::is_zhuyin).then(|| zhuyin::run(label)).flatten() {
-                out.extend(run.into_iter().map(|(r, _)| r));
-                continue;
-            }
-            let declared = if self.system == System::Auto { self.found.romanisation } else { Some(self.system) };
-            let system = declared.filter(|s| matches!(s, System::Hanyu | System::Tongyong)).or(self.found.romanisation);
-            let both = match system {
-                Some(system) => label::readings(label, system),
-                None => label::readings(label, System::Auto),
-            };
-            // Where the two romanisations differ, the one the character can have is meant.
-            let possible: Vec<Reading> = match self.phrase.last() {
-                Some(w) if both.len() > 1 => {
-                    let known = han::readings_of(w.c);
-                    both.iter().filter(|b| known.iter().any(|k| k.sound() == b.sound())).copied().collect()
-                }
-                _ => both.clone(),
-            };
-            match possible.as_slice() {
-                [one] => out.push(*one),
-                _ if both.len() > 1 => {
-                    return Err(self.fault(format!("`{label}` differs in Hanyu and in Tongyong Pinyin"), at).help(
-                        message![
-                            "give ",
-                            Setting::System.of("hanyu"),
-                            " or ",
-                            Setting::System.of("tongyong"),
-                            ", or write the reading in Zhuyin"
-                        ],
-                    ));
-                }
-                _ => {
-                    let run = romanised::word(label, system.unwrap_or(System::Hanyu)).unwrap_or_default();
-                    out.extend(run.iter().map(|w| w.reading));
-                }
-            }
+    /// The readings of one label in braces.
+    fn forced(&self, label: &Label, token: &Token) -> Result<Vec<Reading>> {
+        let readings = |run: &[Written]| run.iter().map(|w| w.reading).collect();
+        if let Some(run) = label.in_zhuyin() {
+            return Ok(readings(run));
         }
-        Ok(out)
-    }
-
-    fn word(&mut self, written: &str, token: &Token) -> Result<()> {
-        let start = token.span.start;
-        let latin = self.found.latin;
-        let system = match latin {
-            System::Hanyu | System::Tongyong => Some(latin),
-            _ if self.system == System::English => None,
-            _ => self.found.romanisation.or(Some(System::Hanyu)),
+        let system = self.choice.romanisation;
+        let both = label.readings(system.unwrap_or(System::Auto));
+        // Where the two romanisations differ, the one the character can have is meant.
+        let possible: Vec<Reading> = match self.phrase.last() {
+            Some(w) if both.len() > 1 => {
+                let known = han::readings_of(w.c);
+                both.iter().filter(|b| known.iter().any(|k| k.sound() == b.sound())).copied().collect()
+            }
+            _ => both.clone(),
         };
-        let parsed = system.and_then(|system| romanised::word(written, system));
-        if let Some(parsed) = parsed.filter(|p| latin != System::English || detect::shows_tones(written, Some(p))) {
-            for syllable in parsed {
-                let span = start + syllable.span.start..start + syllable.span.end;
-                self.out.push(Syllable::mandarin(&self.text[span.clone()], &syllable.reading, span));
-            }
-            return Ok(());
+        if possible.len() == 1 {
+            return Ok(possible);
         }
-        let declared = matches!(self.system, System::Hanyu | System::Tongyong);
-        if latin != System::English && (declared || romanised::shows_tones(written)) && !detect::is_english(written) {
-            let name = if latin == System::Hanyu { "Hanyu" } else { "Tongyong" };
-            return Err(self
-                .fault(format!("`{written}` is neither {name} Pinyin nor a known English word"), start)
-                .help(message!["correct its spelling, or give ", Setting::System]));
+        if both.len() > 1 {
+            let what = format!("`{}` differs in Hanyu and in Tongyong Pinyin", label.text);
+            return Err(self.fault(what, token).help(message![
+                "give ",
+                Setting::System.of("hanyu"),
+                " or ",
+                Setting::System.of("tongyong"),
+                ", or write the reading in Zhuyin"
+            ]));
         }
-        self.english(written, start)
+        let run = label.pinyin.in_system(system.unwrap_or(System::Hanyu));
+        Ok(run.map(readings).unwrap_or_default())
     }
 
-    /// A word of English: its parts between hyphens, and the numbers in it, one by one.
-    fn english(&mut self, written: &str, start: usize) -> Result<()> {
-        let ordinal = |letters: &str| matches!(letters, "st" | "nd" | "rd" | "th");
-        let mut from = 0;
-        while from < written.len() {
-            let rest = &written[from..];
-            let digit = rest.starts_with(|c: char| romanised::fold_width(c).is_ascii_digit());
-            let part_end = rest
-                .char_indices()
-                .find(|(_, c)| {
-                    (romanised::fold_width(*c).is_ascii_digit() || *c == '.') != digit
-                        || matches!(c, '-' | '‐' | '‑' | '·' | ':')
-                })
-                .map_or(rest.len(), |(i, _)| i);
-            let part = &rest[..part_end];
-            let span = start + from..start + from + part_end;
-            if part.is_empty() {
-                from += rest.chars().next().map_or(1, char::len_utf8);
-                continue;
-            }
-            from += part_end;
-            if digit && self.found.english_numbers {
-                self.english_words(&numerals::read(part), &span);
-            } else if digit {
-                self.number(part, span);
-            } else {
-                self.end_phrase();
-                // An ordinal's digits have just been said as a number: 1 st.
-                let count =
-                    self.out.iter().rev().take_while(|s| s.span.end == span.start && s.phones.len() > 1).count();
-                let number = &self.text[..span.start];
-                let digits = number.len() - number.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-                if ordinal(part) && self.found.english_numbers && digits > 0 && count > 0 {
-                    let digits = span.start - digits..span.start;
-                    self.out.retain(|s| s.span.start < digits.start || s.span.end > digits.end);
-                    let said = numerals::ordinal(&self.text[digits.clone()]);
-                    self.english_words(&said, &(digits.start..span.end));
-                    continue;
-                }
-                let phones = english::word(part, !self.found.english_numbers || part != "A");
-                if !phones.is_empty() {
-                    self.out.push(Syllable::english(part, phones, span));
-                }
+    /// A word in Latin letters, by its chosen candidate.
+    fn word(&mut self, word: &Word, token: &Token) -> Result<()> {
+        self.end_phrase();
+        match self.choice.of(token.text, word) {
+            Chosen::Pinyin(syllables) => self.written(syllables, token),
+            Chosen::English(parts) => parts.iter().for_each(|part| self.part(part)),
+            Chosen::Nothing(name) => {
+                let what = format!("`{}` is neither {name} Pinyin nor a known English word", token.text);
+                return Err(self.fault(what, token).help(message!["correct its spelling, or give ", Setting::System]));
             }
         }
         Ok(())
+    }
+
+    /// A part of an English word.
+    fn part(&mut self, part: &Part) {
+        let english_numbers = self.choice.english_numbers;
+        match &part.kind {
+            PartKind::Digits(number) if english_numbers => self.english_number(number, &part.span),
+            PartKind::Digits(number) => self.mandarin_number(number, &part.span),
+            PartKind::Letters { ordinal } => {
+                self.end_phrase();
+                let digits = ordinal.filter(|_| english_numbers && self.ends_in_a_number(part.span.start));
+                if let Some(digits) = digits {
+                    self.ordinal(digits, &part.span);
+                    return;
+                }
+                let phones = english::word(part.text, !english_numbers || part.text != "A");
+                if !phones.is_empty() {
+                    self.out.push(Syllable::english(part.text, phones, part.span.clone()));
+                }
+            }
+        }
+    }
+
+    /// Whether the last syllable is a word of a number that ends at a byte of the script.
+    fn ends_in_a_number(&self, end: usize) -> bool {
+        self.out.last().is_some_and(|s| s.span.end == end && s.phones.len() > 1)
+    }
+
+    /// An ordinal, whose digits before the letters have just been read as a number: 1 st.
+    fn ordinal(&mut self, digits: &str, letters: &Range<usize>) {
+        let start = letters.start - digits.len();
+        self.out.retain(|s| s.span.start < start || s.span.end > letters.start);
+        self.english_words(&number::english::ordinal(digits), &(start..letters.end));
+    }
+
+    fn english_number(&mut self, number: &Number, span: &Range<usize>) {
+        self.english_words(&number::english::read(number), span);
     }
 
     fn english_words(&mut self, words: &[&str], span: &Range<usize>) {

@@ -105,26 +105,26 @@ impl Sound {
 
     /// The syllable of a spelling in Zhuyin, without tone mark.
     #[must_use]
-    pub(crate) fn from_zhuyin(spelling: &str) -> Option<Self> {
+    pub fn from_zhuyin(spelling: &str) -> Option<Self> {
         find(&TABLE.by_zhuyin, |r| r.zhuyin, spelling)
     }
 
     /// The syllable of a spelling in Tongyong Pinyin: lower case, no tone. `e` alone is ㄜ, ㄝ is written `ê`.
     #[must_use]
-    pub(crate) fn from_tongyong(spelling: &str) -> Option<Self> {
+    pub fn from_tongyong(spelling: &str) -> Option<Self> {
         let spelling = if spelling == "ê" { return Self::from_hanyu("ê") } else { spelling };
         find(&TABLE.by_tongyong, |r| r.tongyong, spelling)
     }
 
     /// Its spelling in Hanyu Pinyin.
     #[must_use]
-    pub(crate) fn hanyu(self) -> &'static str {
+    pub fn hanyu(self) -> &'static str {
         self.row().hanyu
     }
 
     /// Its spelling in Zhuyin.
     #[must_use]
-    pub(crate) fn zhuyin(self) -> &'static str {
+    pub fn zhuyin(self) -> &'static str {
         self.row().zhuyin
     }
 
@@ -137,13 +137,13 @@ impl Sound {
 
     /// The mouth shapes it passes through, one to four (thesis tables 5.1 to 5.4).
     #[must_use]
-    pub(crate) fn shapes(self) -> &'static [MouthShape] {
+    pub fn shapes(self) -> &'static [MouthShape] {
         &self.row().shapes
     }
 
     /// Whether it is one of the vowelless interjections or the suffix of erhua.
     #[must_use]
-    pub(crate) fn is_interjection(self) -> bool {
+    pub fn is_interjection(self) -> bool {
         self.row().interjection
     }
 
@@ -155,14 +155,14 @@ impl Sound {
 
     /// Its final in Zhuyin; empty for the empty rime of zhi, chi, shi, ri, zi, ci, si.
     #[must_use]
-    pub(crate) fn rime(self) -> &'static str {
+    pub fn rime(self) -> &'static str {
         let zhuyin = self.zhuyin();
         zhuyin.strip_prefix(|c| ('ㄅ'..='ㄙ').contains(&c)).unwrap_or(zhuyin)
     }
 
     /// The class of its initial.
     #[must_use]
-    pub(crate) fn initial_class(self) -> InitialClass {
+    pub fn initial_class(self) -> InitialClass {
         match self.initial() {
             None => InitialClass::None,
             Some('ㄅ' | 'ㄆ' | 'ㄇ' | 'ㄈ') => InitialClass::Labial,
@@ -172,7 +172,7 @@ impl Sound {
 
     /// The class of its final.
     #[must_use]
-    pub(crate) fn final_class(self) -> FinalClass {
+    pub fn final_class(self) -> FinalClass {
         let rime = self.rime();
         let glide = rime.starts_with(['ㄧ', 'ㄨ', 'ㄩ']);
         let rest = if glide { rime.get('ㄧ'.len_utf8()..).unwrap_or("") } else { rime };

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::label;
 use super::phone::{self, Phone};
 use super::reading::Reading;
-use super::sound::Sound;
+use super::sound::{FinalClass, InitialClass, Sound};
 use super::system::System;
-use super::tokens::Pause;
+use super::token::Pause;
 use crate::pose::MouthShape;
 
 /// The language of an entry.
@@ -109,5 +109,17 @@ impl Syllable {
     #[must_use]
     pub fn sound(&self) -> Option<Sound> {
         self.reading().map(|r| r.sound())
+    }
+
+    /// How it begins, for its timing; nothing for English.
+    #[must_use]
+    pub fn initial_class(&self) -> Option<InitialClass> {
+        self.sound().map(Sound::initial_class)
+    }
+
+    /// What follows its initial, for its timing; nothing for English.
+    #[must_use]
+    pub fn final_class(&self) -> Option<FinalClass> {
+        self.sound().map(Sound::final_class)
     }
 }

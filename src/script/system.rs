@@ -30,7 +30,7 @@ impl System {
 
     /// The word used in files and calls.
     #[must_use]
-    pub(crate) const fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
             Self::Han => "han",

@@ -6,7 +6,7 @@ use super::syllable::Syllable;
 
 /// What a script writes in one piece.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct WrittenWord {
+pub struct WrittenWord {
     /// Its syllables.
     pub syllables: Range<usize>,
     /// How it is written, without readings in braces.
@@ -16,7 +16,7 @@ pub(crate) struct WrittenWord {
 /// The runs of syllables that stand in the script without a space or mark between them: the words of a romanised or
 /// English script, and the phrases between the marks of one in characters.
 #[must_use]
-pub(crate) fn written_words(script: &str, syllables: &[Syllable]) -> Vec<WrittenWord> {
+pub fn written_words(script: &str, syllables: &[Syllable]) -> Vec<WrittenWord> {
     let mut words: Vec<Range<usize>> = Vec::new();
     for (i, syllable) in syllables.iter().enumerate() {
         let joined = words.last().is_some_and(|word: &Range<usize>| {
@@ -40,7 +40,7 @@ pub(crate) fn written_words(script: &str, syllables: &[Syllable]) -> Vec<Written
 
 /// A piece of script on one line, without its `{…}`.
 #[must_use]
-pub(crate) fn without_braces(text: &str) -> String {
+pub fn without_braces(text: &str) -> String {
     let mut out = String::new();
     let mut inside = false;
     for c in text.chars() {

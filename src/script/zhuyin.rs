@@ -1,8 +1,6 @@
 //! Zhuyin as it is typed: symbols run together, tone marks after a syllable, the neutral dot before or after it.
 
-use std::ops::Range;
-
-use super::reading::Reading;
+use super::reading::{Reading, Written};
 use super::sound::Sound;
 use super::tone;
 
@@ -15,17 +13,9 @@ fn is_symbol(c: char) -> bool {
     ('\u{3105}'..='\u{312F}').contains(&c)
 }
 
-/// The one syllable of a label, or nothing where it is not exactly one.
-pub(super) fn syllable(label: &str) -> Option<Reading> {
-    match run(label).as_deref() {
-        Some([(reading, _)]) => Some(*reading),
-        _ => None,
-    }
-}
-
 /// Takes a run of symbols and marks apart into syllables, each with its bytes. A syllable without a mark is of the first
 /// tone, as Zhuyin writes it. Nothing where some of it is no syllable.
-pub(super) fn run(text: &str) -> Option<Vec<(Reading, Range<usize>)>> {
+pub(super) fn run(text: &str) -> Option<Vec<Written>> {
     // The vertical stroke that a horizontal font may give for ㄧ is another character.
     let text_chars: Vec<(usize, char)> =
         text.char_indices().map(|(i, c)| (i, if matches!(c, '一' | '丨') { 'ㄧ' } else { c })).collect();
@@ -50,7 +40,7 @@ pub(super) fn run(text: &str) -> Option<Vec<(Reading, Range<usize>)>> {
                 i += 1;
             }
         }
-        out.push((Reading::new(sound, tone.or(Some(1))), end_of(start)..end_of(i)));
+        out.push(Written { reading: Reading::new(sound, tone.or(Some(1))), span: end_of(start)..end_of(i) });
     }
     (!out.is_empty()).then_some(out)
 }
@@ -72,7 +62,7 @@ mod tests {
     use super::*;
 
     fn pinyin(text: &str) -> Vec<String> {
-        run(text).unwrap_or_default().iter().map(|(r, _)| r.pinyin()).collect()
+        run(text).unwrap_or_default().iter().map(|w| w.reading.pinyin()).collect()
     }
 
     #[test]

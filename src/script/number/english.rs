@@ -1,6 +1,6 @@
 //! Numbers as they are read in English: a row of words for a row of digits.
 
-use super::tokens::{is_minus, is_money};
+use super::{Number, Sign};
 
 const ONES: [&str; 20] = [
     "zero",
@@ -41,41 +41,32 @@ const MONTHS: [&str; 12] = [
 ];
 
 /// The words of a number.
-pub(super) fn read(number: &str) -> Vec<&'static str> {
-    let number: String = number.chars().map(super::romanised::fold_width).collect();
-    if let Some(rest) = number.strip_prefix(is_minus) {
-        return std::iter::once("minus").chain(read(rest)).collect();
-    }
-    let money = number.chars().next().filter(|c| is_money(*c));
-    let body = number.trim_start_matches(is_money);
-    let (body, sign) = match body.find(['%', '‰', '℃', '℉', '°']) {
-        Some(at) => body.split_at(at),
-        None => (body, ""),
-    };
-    let mut words = plain(body, money.is_some() || !sign.is_empty());
-    let one = body == "1";
-    match money {
-        Some('$') => words.push(if one { "dollar" } else { "dollars" }),
-        Some('€') => words.push(if one { "euro" } else { "euros" }),
-        Some('£') => words.push(if one { "pound" } else { "pounds" }),
-        Some(_) => words.push("yuan"),
-        None => {}
-    }
-    match sign {
-        "%" => words.push("percent"),
-        "‰" => words.extend(["per", "thousand"]),
-        "" => {}
-        _ => {
-            words.push("degrees");
-            words.extend(if sign.contains(['C', '℃']) { Some("Celsius") } else { None });
-            words.extend(if sign.contains(['F', '℉']) { Some("Fahrenheit") } else { None });
-        }
-    }
+pub(in super::super) fn read(number: &Number) -> Vec<&'static str> {
+    let mut words = if number.negative { vec!["minus"] } else { Vec::new() };
+    words.extend(plain(number, number.money.is_some() || number.sign.is_some()));
+    let one = number.body == "1";
+    words.extend(number.money.map(|money| match money {
+        '$' if one => "dollar",
+        '$' => "dollars",
+        '€' if one => "euro",
+        '€' => "euros",
+        '£' if one => "pound",
+        '£' => "pounds",
+        _ => "yuan",
+    }));
+    words.extend_from_slice(match number.sign {
+        Some(Sign::Percent) => &["percent"],
+        Some(Sign::Permille) => &["per", "thousand"],
+        Some(Sign::Degree) => &["degrees"],
+        Some(Sign::Celsius) => &["degrees", "Celsius"],
+        Some(Sign::Fahrenheit) => &["degrees", "Fahrenheit"],
+        None => &[],
+    });
     words
 }
 
 /// The words of an ordinal: `1st`, `22nd`.
-pub(super) fn ordinal(digits: &str) -> Vec<&'static str> {
+pub(in super::super) fn ordinal(digits: &str) -> Vec<&'static str> {
     let mut words = cardinal(digits);
     if let Some(last) = words.last_mut() {
         *last = ordinal_of(last);
@@ -118,11 +109,11 @@ fn ordinal_of(word: &'static str) -> &'static str {
     IRREGULAR.iter().find(|(one, _)| *one == word).map_or(word, |(_, nth)| nth)
 }
 
-fn plain(body: &str, counted: bool) -> Vec<&'static str> {
-    let parts: Vec<&str> = body.split(['-', '/', ':', '~', '–', '～']).collect();
-    let joined_by = |c: char| body.matches(c).count() == parts.len() - 1;
+/// The words of its digits; `counted` is whether money or a unit says that they are no year and no code.
+fn plain(number: &Number, counted: bool) -> Vec<&'static str> {
+    let joined_by = |c| number.is_joined_by(c);
     let small = |text: &str| text.parse::<usize>().unwrap_or(usize::MAX);
-    match parts.as_slice() {
+    match number.parts().as_slice() {
         [one] => amount(one, counted),
         [y, m, d]
             if y.len() == 4 && !joined_by(':') && (1..=12).contains(&small(m)) && (1..=31).contains(&small(d)) =>
@@ -153,7 +144,7 @@ fn plain(body: &str, counted: bool) -> Vec<&'static str> {
             let between = if joined_by('/') { "over" } else { "to" };
             amount(a, counted).into_iter().chain([between]).chain(amount(b, counted)).collect()
         }
-        _ => one_by_one(body),
+        _ => one_by_one(&number.body),
     }
 }
 
@@ -246,7 +237,7 @@ mod tests {
             ("2024-11-22", "November twenty second twenty twenty four"),
             ("5551234", "five five five one two three four"),
         ] {
-            assert_eq!(read(text).join(" "), want, "{text}");
+            assert_eq!(read(&Number::of(text, None)).join(" "), want, "{text}");
         }
         assert_eq!(ordinal("22").join(" "), "twenty second");
     }

@@ -1,45 +1,35 @@
 //! Numbers as they are read in Mandarin: a row of characters for a row of digits.
 //!
-//! What is a number and what stands around it comes from `tokens`; how the characters are read is for `words`.
+//! How the characters are read is for `words`.
 
-use super::romanised::fold_width;
-use super::tokens::{is_minus, is_money};
+use super::{Number, Sign};
 
 const DIGITS: [char; 10] = ['零', '一', '二', '三', '四', '五', '六', '七', '八', '九'];
 
-/// The characters of a number. `before` is the character before it, `after` the text that follows.
-pub(super) fn read(number: &str, before: Option<char>, after: &str) -> String {
-    let number: String = number.chars().map(fold_width).collect();
-    if let Some(rest) = number.strip_prefix(is_minus) {
-        return format!("负{}", read(rest, None, after));
-    }
-    let money = number.chars().next().filter(|c| is_money(*c));
-    let body = number.trim_start_matches(is_money);
-    let (body, sign) = match body.find(['%', '‰', '℃', '℉', '°']) {
-        Some(at) => body.split_at(at),
-        None => (body, ""),
+/// The characters of a number; `before` is the character before it in its phrase.
+pub(in super::super) fn read(number: &Number, before: Option<char>) -> String {
+    let (before, sign) = (before.filter(|_| !number.negative), if number.negative { "负" } else { "" });
+    let words = match number.sign {
+        Some(Sign::Percent) => format!("百分之{}", plain(number, None, None)),
+        Some(Sign::Permille) => format!("千分之{}", plain(number, None, None)),
+        Some(Sign::Degree) => format!("{}度", plain(number, None, Some('度'))),
+        Some(Sign::Celsius) => format!("{}摄氏度", plain(number, None, Some('摄'))),
+        Some(Sign::Fahrenheit) => format!("{}华氏度", plain(number, None, Some('华'))),
+        None => plain(number, before, number.next.filter(|_| number.money.is_none())),
     };
-    let next = after.chars().next();
-    let said = match sign {
-        "%" => format!("百分之{}", plain(body, None, None)),
-        "‰" => format!("千分之{}", plain(body, None, None)),
-        "°" => format!("{}度", plain(body, None, Some('度'))),
-        "℃" | "°C" => format!("{}摄氏度", plain(body, None, Some('摄'))),
-        "℉" | "°F" => format!("{}华氏度", plain(body, None, Some('华'))),
-        _ => plain(body, before, next.filter(|_| money.is_none())),
-    };
-    match money {
-        Some('$') => format!("{said}美元"),
-        Some('€') => format!("{said}欧元"),
-        Some('£') => format!("{said}英镑"),
+    let unit = match number.money {
+        Some('$') => "美元",
+        Some('€') => "欧元",
+        Some('£') => "英镑",
         // ¥3万 is 三万元: the unit waits for its number to end.
-        Some(_) if !matches!(next, Some('万' | '亿' | '萬' | '億' | '元')) => format!("{said}元"),
-        _ => said,
-    }
+        Some(_) if !matches!(number.next, Some('万' | '亿' | '萬' | '億' | '元')) => "元",
+        _ => "",
+    };
+    format!("{sign}{words}{unit}")
 }
 
 /// The characters of a unit in Latin letters after a number.
-pub(super) fn unit(letters: &str) -> Option<&'static str> {
+pub(in super::super) fn unit(letters: &str) -> Option<&'static str> {
     Some(match letters {
         "km" => "公里",
         "m" => "米",
@@ -55,10 +45,10 @@ pub(super) fn unit(letters: &str) -> Option<&'static str> {
     })
 }
 
-fn plain(body: &str, before: Option<char>, next: Option<char>) -> String {
-    let parts: Vec<&str> = body.split(['-', '/', ':', '~', '–', '～']).collect();
-    let joined_by = |c: char| body.matches(c).count() == parts.len() - 1;
-    match parts.as_slice() {
+/// The characters of its digits; `next` is the character after them.
+fn plain(number: &Number, before: Option<char>, next: Option<char>) -> String {
+    let joined_by = |c| number.is_joined_by(c);
+    match number.parts().as_slice() {
         [one] => amount(one, before, next),
         [y, m, d] if (joined_by('-') || joined_by('/')) && y.len() == 4 && is_date(m, d) => {
             format!("{}年{}月{}日", one_by_one(y), cardinal(m), cardinal(d))
@@ -83,7 +73,7 @@ fn plain(body: &str, before: Option<char>, next: Option<char>) -> String {
             let side = |n: &str| if years { one_by_one(n) } else { amount(n, None, None) };
             format!("{}到{}", side(a), amount(b, None, next))
         }
-        _ => one_by_one(body),
+        _ => one_by_one(&number.body),
     }
 }
 
@@ -220,6 +210,10 @@ fn thousands(group: u64, first: bool) -> String {
 mod tests {
     use super::*;
 
+    fn said(text: &str, before: Option<char>, after: &str) -> String {
+        read(&Number::of(text, after.chars().next()), before)
+    }
+
     #[test]
     fn whole_numbers_are_read_with_their_units_and_zeros() {
         for (text, want) in [
@@ -239,7 +233,7 @@ mod tests {
             ("1,234,567", "一百二十三万四千五百六十七"),
             ("1000000000000", "一万亿"),
         ] {
-            assert_eq!(read(text, None, ""), want, "{text}");
+            assert_eq!(said(text, None, ""), want, "{text}");
         }
     }
 
@@ -268,8 +262,8 @@ mod tests {
             ("25°C", "", "二十五摄氏度"),
             ("-5°C", "", "负五摄氏度"),
         ] {
-            assert_eq!(read(text, None, after), want, "{text}{after}");
+            assert_eq!(said(text, None, after), want, "{text}{after}");
         }
-        assert_eq!(read("2", Some('第'), "个"), "二");
+        assert_eq!(said("2", Some('第'), "个"), "二");
     }
 }

@@ -1,57 +1,18 @@
-//! A script cut into pieces: characters, Zhuyin, words in Latin letters, numbers, readings in braces, pauses.
+//! Cuts a script into tokens: characters, Zhuyin, words in Latin letters, numbers, readings in braces, pauses.
 //!
-//! What a piece says is decided elsewhere; here only where it starts and ends.
+//! Here is only where a token starts and ends; what it can be read as is `token`'s to say.
 
-use std::ops::Range;
-
-use serde::{Deserialize, Serialize};
-
-use super::romanised::{self, fold_width, is_joint};
-use super::system::System;
+use super::label::Label;
+use super::letters::{fold_width, is_joint};
+use super::number::{Number, is_minus, is_money};
+use super::token::{Kind, Pause, Token, Word};
 use super::{han, tone, zhuyin};
 
-/// What follows a syllable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Pause {
-    /// The next syllable.
-    #[default]
-    None,
-    /// A comma or what is like it; the end of a line.
-    Comma,
-    /// The end of a sentence.
-    Sentence,
-}
-
-/// What a piece of a script is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// One Chinese character.
-    Han(char),
-    /// Symbols and tone marks of Zhuyin, run together.
-    Zhuyin,
-    /// Latin letters, with digits, apostrophes and hyphens inside or digits after.
-    Word,
-    /// Digits with what may stand between them, a sign of money before or a sign after.
-    Number,
-    /// A reading in braces; the span is what is inside them.
-    Forced,
-    /// Whatever ends a phrase.
-    Break(Pause),
-}
-
-/// A piece of a script and its bytes in it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Token {
-    pub(super) kind: Kind,
-    pub(super) span: Range<usize>,
-}
-
-/// Cuts a script into its pieces, in order and without overlap.
-pub(super) fn scan(text: &str) -> Vec<Token> {
+/// The tokens of a script, in order and without overlap.
+pub(super) fn scan(text: &str) -> Vec<Token<'_>> {
     let mut scan = Scan { text, chars: text.char_indices().collect(), at: 0 };
     let mut tokens = Vec::new();
-    while let Some(token) = scan.next() {
+    while let Some(token) = scan.next(tokens.last()) {
         tokens.push(token);
     }
     tokens
@@ -63,7 +24,7 @@ struct Scan<'a> {
     at: usize,
 }
 
-impl Scan<'_> {
+impl<'a> Scan<'a> {
     fn peek(&self, ahead: usize) -> Option<char> {
         self.chars.get(self.at + ahead).map(|(_, c)| fold_width(*c))
     }
@@ -73,46 +34,43 @@ impl Scan<'_> {
         self.chars.get(place).map_or(self.text.len(), |(at, _)| *at)
     }
 
-    fn take(&mut self, kind: Kind, count: usize) -> Token {
-        let start = self.at;
+    /// The token of the next `count` characters; `kind` makes its candidates.
+    fn take(&mut self, count: usize, kind: impl FnOnce(&'a str) -> Kind<'a>) -> Token<'a> {
+        let span = self.byte(self.at)..self.byte(self.at + count);
         self.at += count;
-        Token { kind, span: self.byte(start)..self.byte(self.at) }
+        let text = &self.text[span.clone()];
+        Token { text, span, kind: kind(text) }
     }
 
-    fn next(&mut self) -> Option<Token> {
+    /// The next token, after the token `before`.
+    fn next(&mut self, before: Option<&Token>) -> Option<Token<'a>> {
         let c = self.peek(0)?;
         if c == '{'
-            && let Some(close) = self.braces()
+            && let Some(token) = self.forced(before)
         {
-            let span = self.byte(self.at + 1)..self.byte(self.at + close);
-            self.at += close + 1;
-            return Some(Token { kind: Kind::Forced, span });
+            return Some(token);
         }
         if han::is_han(c) || c == '々' {
-            return Some(self.take(Kind::Han(c), 1));
+            return Some(self.take(1, |_| Kind::Han(c)));
         }
         if zhuyin::is_zhuyin(c) {
             let count = self.count(|_, c| zhuyin::is_zhuyin(c));
-            return Some(self.take(Kind::Zhuyin, count));
+            return Some(self.take(count, |text| Kind::Zhuyin(zhuyin::run(text))));
         }
-        let before = self.at.checked_sub(1).and_then(|at| self.chars.get(at)).map(|(_, c)| *c);
-        let negative = is_minus(c) && before.is_none_or(|b| !b.is_ascii_alphanumeric() && !is_minus(b));
-        if negative && self.peek(1).is_some_and(|c| c.is_ascii_digit()) {
-            self.at += 1;
-            let count = self.number();
-            self.at -= 1;
-            return Some(self.take(Kind::Number, count + 1));
-        }
-        if c.is_ascii_digit() || (is_money(c) && self.peek(1).is_some_and(|c| c.is_ascii_digit())) {
-            let count = self.number();
-            return Some(self.take(Kind::Number, count));
+        if let Some(count) = self.number() {
+            let next = self.chars.get(self.at + count).map(|(_, c)| *c);
+            return Some(self.take(count, |text| Kind::Number(Number::of(text, next))));
         }
         if is_latin(c) {
+            let (script, start) = (self.text, self.byte(self.at));
+            let after_number = before.is_some_and(|b| matches!(b.kind, Kind::Number(_)));
             let count = self.word();
-            return Some(self.take(Kind::Word, count));
+            return Some(
+                self.take(count, |text| Kind::Word(Word::of(script, start..start + text.len(), after_number))),
+            );
         }
         let pause = self.pause(c);
-        Some(self.take(Kind::Break(pause), 1))
+        Some(self.take(1, |_| Kind::Break(pause)))
     }
 
     fn count(&self, fits: impl Fn(usize, char) -> bool) -> usize {
@@ -123,16 +81,21 @@ impl Scan<'_> {
         n
     }
 
-    /// Where the brace is closed that opens here, if it holds a reading. Braces around other text are punctuation.
-    fn braces(&self) -> Option<usize> {
+    /// The readings in the braces that open here. Braces around other text are punctuation.
+    fn forced(&mut self, before: Option<&Token>) -> Option<Token<'a>> {
         let close = (1..80).find(|n| matches!(self.peek(*n), Some('{' | '}' | '\n') | None))?;
         if self.peek(close) != Some('}') {
             return None;
         }
-        let inside = &self.text[self.byte(self.at + 1)..self.byte(self.at + close)];
-        let after_han = self.at.checked_sub(1).is_some_and(|at| han::is_han(self.chars[at].1));
-        let letters = inside.chars().all(|c| !han::is_han(c)) && inside.contains(char::is_alphabetic);
-        ((after_han && letters) || inside.split_whitespace().any(is_reading)).then_some(close)
+        let span = self.byte(self.at + 1)..self.byte(self.at + close);
+        let text = &self.text[span.clone()];
+        let labels: Vec<Label> = text.split_whitespace().map(Label::of).collect();
+        let after_han = before.is_some_and(|b| matches!(b.kind, Kind::Han(_)));
+        let letters = text.chars().all(|c| !han::is_han(c)) && text.contains(char::is_alphabetic);
+        ((after_han && letters) || labels.iter().any(Label::is_reading)).then(|| {
+            self.at += close + 1;
+            Token { text, span, kind: Kind::Forced { labels, after_han } }
+        })
     }
 
     /// A word: letters, marks and digits, joints between letters, and the colon of u:.
@@ -156,9 +119,21 @@ impl Scan<'_> {
         })
     }
 
-    /// A number: a sign of money, digits with separators between digits, a sign after.
-    fn number(&self) -> usize {
-        let start = usize::from(self.peek(0).is_some_and(is_money));
+    /// The characters of the number that starts here, with its minus.
+    fn number(&self) -> Option<usize> {
+        let digit = |n| self.peek(n).is_some_and(|c| c.is_ascii_digit());
+        let before = self.at.checked_sub(1).and_then(|at| self.chars.get(at)).map(|(_, c)| *c);
+        let first = self.peek(0)?;
+        if is_minus(first) && before.is_none_or(|b| !b.is_ascii_alphanumeric() && !is_minus(b)) && digit(1) {
+            return Some(self.digits(1));
+        }
+        (digit(0) || (is_money(first) && digit(1))).then(|| self.digits(0))
+    }
+
+    /// Where a number ends whose currency sign or digits start at `from`: digits with separators between digits, a unit
+    /// sign after.
+    fn digits(&self, from: usize) -> usize {
+        let start = from + usize::from(self.peek(from).is_some_and(is_money));
         let mut n = start;
         while let Some(c) = self.peek(n) {
             let between = n > start
@@ -200,21 +175,6 @@ impl Scan<'_> {
     }
 }
 
-/// Whether braces around this hold a reading wherever they stand.
-fn is_reading(label: &str) -> bool {
-    zhuyin::run(label).is_some() || romanised::word(label, System::Hanyu).is_some_and(|_| romanised::shows_tones(label))
-}
-
-/// A sign of money that stands before its number.
-pub(super) fn is_money(c: char) -> bool {
-    matches!(c, '¥' | '￥' | '$' | '€' | '£')
-}
-
-/// A sign that makes the number after it negative.
-pub(super) fn is_minus(c: char) -> bool {
-    matches!(c, '-' | '−')
-}
-
 /// A letter of the Latin alphabet, with or without marks, or a mark on one.
 fn is_latin(c: char) -> bool {
     c.is_ascii_alphabetic()
@@ -227,7 +187,7 @@ mod tests {
     use super::*;
 
     fn cut(text: &str) -> Vec<&str> {
-        scan(text).into_iter().filter(|t| !matches!(t.kind, Kind::Break(_))).map(|t| text[t.span].into()).collect()
+        scan(text).into_iter().filter(|t| !matches!(t.kind, Kind::Break(_))).map(|t| t.text).collect()
     }
 
     #[test]
@@ -239,6 +199,25 @@ mod tests {
         assert_eq!(cut("¥12.5 50% 3:30 25°C"), ["¥12.5", "50%", "3:30", "25°C"]);
         assert_eq!(cut("ㄋㄧˇㄏㄠˇ x"), ["ㄋㄧˇㄏㄠˇ", "x"]);
         assert_eq!(cut("５０％"), ["５０％"]);
+    }
+
+    #[test]
+    fn braces_hold_readings_and_know_what_stands_before_them() {
+        let forced = |text| {
+            scan(text).into_iter().find_map(|t| match t.kind {
+                Kind::Forced { labels, after_han } => Some((labels.len(), after_han)),
+                _ => None,
+            })
+        };
+        assert_eq!(forced("银行{yin2 hang2}"), Some((2, true)));
+        assert_eq!(forced("a {ㄏㄤˊ}"), Some((1, false)));
+        assert_eq!((forced("a {b}"), forced("行{1}"), forced("{hang2")), (None, None, None));
+    }
+
+    #[test]
+    fn letters_are_a_unit_directly_after_a_number() {
+        let unit = |text| scan(text).into_iter().find_map(|t| if let Kind::Word(w) = t.kind { w.unit } else { None });
+        assert_eq!((unit("5km"), unit("-5kg"), unit("5 km"), unit("km")), (Some("公里"), Some("公斤"), None, None));
     }
 
     #[test]
