@@ -13,7 +13,7 @@ pub type Result<T, E = Fault> = std::result::Result<T, E>;
 /// Something in the input is wrong. Prints as up to three lines: what, where, what to do. The next step is a [`Message`]:
 /// a face words it with its own commands or keys by `Fault::worded`.
 ///
-/// ```
+/// ```ignore
 /// use lianpu::disk::Fault;
 /// let fault = Fault::new("`fps` is 0").at("lianpu.toml").line(7).help("give a number from 1 to 240");
 /// assert_eq!(fault.to_string(), "`fps` is 0\n  at lianpu.toml:7\n  give a number from 1 to 240");

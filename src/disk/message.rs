@@ -6,7 +6,7 @@ use super::NextStep;
 
 /// A sentence or two, with [`NextStep`]s in it.
 ///
-/// ```
+/// ```ignore
 /// use lianpu::disk::{Message, Task};
 /// let note = Message::from("the times are guessed; ").then(Task::Align).then(" finds them");
 /// assert_eq!(note.to_string(), "the times are guessed; aligning finds them");

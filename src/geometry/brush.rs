@@ -20,7 +20,7 @@ const STEP: f64 = 5.0;
 ///
 /// Filled non-zero. Empty when the line has no length or no two points.
 ///
-/// ```
+/// ```ignore
 /// use lianpu::geometry::{Point, Shape, brush};
 /// let ink = brush(&[Point::new(0.0, 0.0), Point::new(100.0, 0.0)], 4.0, &[0.0, 1.0, 0.0]);
 /// assert!((ink.bounding_box().height() - 4.0).abs() < 0.01);
